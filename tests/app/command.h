@@ -1,4 +1,4 @@
-// Runs the command as a user does, without and with a terminal.
+// Runs the command as a user does, with and without a terminal.
 #pragma once
 #include <doctest/doctest.h>
 #include <fcntl.h>
@@ -22,7 +22,7 @@ namespace clench::test {
 
 namespace fs = std::filesystem;
 
-/// A temporary folder whose paths go into commands.
+/// A temporary folder whose paths are inserted into commands.
 class Folder {
  public:
   /// writes a file, returns its path
@@ -62,7 +62,7 @@ inline Outcome run(const std::string& arguments, const std::string& input = "",
   return outcome;
 }
 
-/// `clench <arguments>` on a terminal, in a home of its own.
+/// `clench <arguments>` on a terminal, with a temporary home folder.
 class Terminal {
  public:
   explicit Terminal(const Folder& home, const std::string& verb = "repl") {
@@ -86,14 +86,15 @@ class Terminal {
     REQUIRE(write(fd_, keys.data(), keys.size()) == static_cast<ssize_t>(keys.size()));
   }
 
-  /// Types a line and waits until it is taken: what is typed while a chunk runs may be lost.
+  /// Types a line and waits until the terminal echoes its end: keys typed while a chunk runs may be
+  /// lost.
   void enter(const std::string& line) {
     type(line + "\n");
     wait_for("\r\n");
   }
 
-  /// Reads until the text appears; what was read before counts no more.   returns what was read, or
-  /// fails the test
+  /// Reads until the text appears, and discards the output up to its end.
+  /// returns  the output before the text; fails the test if the text does not appear
   std::string wait_for(const std::string& text) {
     for (;;) {
       const size_t at = rest_.find(text);
@@ -109,10 +110,10 @@ class Terminal {
   /// Sends a signal, and waits until it has ended the process.
   struct End {
     int code;
-    bool cooked;  ///< does the terminal edit lines and echo again, as it was found?
+    bool cooked;  ///< whether the terminal edits lines and echoes again, as before the start
   };
   End end_by(int signal) {
-    // open, it keeps its settings when the process is gone
+    // while open, it keeps its settings after the process has ended
     const int terminal = open(ptsname(fd_), O_RDWR | O_NOCTTY);
     kill(pid_, signal);
     int status = 0;
@@ -142,7 +143,7 @@ class Terminal {
   }
 
  private:
-  // false when the process has ended, or says nothing for long
+  // false if the process has ended or prints nothing for long
   bool read_some() {
     pollfd waiting{fd_, POLLIN, 0};
     if (poll(&waiting, 1, 20000) <= 0) return false;

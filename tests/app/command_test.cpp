@@ -4,7 +4,7 @@ using clench::test::Folder;
 using clench::test::has;
 using clench::test::run;
 
-TEST_CASE("run gives a script its arguments, whatever they look like") {
+TEST_CASE("run passes arguments to a script unchanged") {
   const Folder folder;
   const auto script =
       folder.file("a.lua", "print(arg[0] == ..., #arg, select(2, ...))  print(arg[0])");
@@ -14,8 +14,8 @@ TEST_CASE("run gives a script its arguments, whatever they look like") {
 }
 
 TEST_CASE(
-    "run ends with 0 when the script does, 1 with a traceback when it fails, its own code when it "
-    "exits") {
+    "run exits with 0 if the script ends, with 1 and a traceback if it fails, and with the code of "
+    "os.exit") {
   const Folder folder;
   CHECK(run("run " + folder.file("ok.lua", "local x = 1")).code == 0);
   const auto failed =
@@ -31,20 +31,20 @@ TEST_CASE(
   CHECK(has(missing.out, "cannot open no_such.lua"));
 }
 
-TEST_CASE("run reads a script from stdin") {
+TEST_CASE("run reads a script from standard input") {
   const auto result = run("run - a b", "print('in', ...)");
   CHECK(result.code == 0);
   CHECK(result.out == "in\ta\tb\n");
-  // as of a pipe into `lua`
+  // like a pipe into `lua`
   CHECK(run("", "print('in', ...)").out == "in\n");
 }
 
-TEST_CASE("output before an error comes before the error") {
+TEST_CASE("output printed before an error precedes the error message") {
   const auto result = run("-e 'print(1) error(\"x\", 0)'");
   CHECK(has(result.out, "1\nclench: x\n"));
 }
 
-TEST_CASE("-e runs code in order and stops at an error") {
+TEST_CASE("-e runs code in order and stops at the first error") {
   const auto result = run("-e 'x = 1' -e 'print(x, clench.version)'");
   CHECK(result.code == 0);
   CHECK(has(result.out, "1\t0."));
@@ -54,7 +54,7 @@ TEST_CASE("-e runs code in order and stops at an error") {
   CHECK(failed.out.find("not reached") == std::string::npos);
 }
 
-TEST_CASE("wrong usage is code 2, and help is code 0 with examples") {
+TEST_CASE("wrong usage exits with 2, and help exits with 0 and shows examples") {
   CHECK(run("frob").code == 2);
   CHECK(has(run("rnu a.lua").out, "there is no verb 'rnu'; did you mean 'run'?"));
   CHECK(has(run("examples/01_first_grasp.lua").out,
@@ -91,7 +91,7 @@ TEST_CASE("wrong usage is code 2, and help is code 0 with examples") {
   CHECK(has(run("").out, "Usage: clench"));
 }
 
-TEST_CASE("quiet keeps warnings and finalizers' errors to itself") {
+TEST_CASE("quiet suppresses warnings and errors of finalizers") {
   const std::string code =
       "-e 'clench.log.warning(\"careful\") setmetatable({}, {__gc = function() error(\"gc\") end}) "
       "collectgarbage()'";
@@ -101,7 +101,7 @@ TEST_CASE("quiet keeps warnings and finalizers' errors to itself") {
   CHECK(run("-q " + code).out == "");
 }
 
-TEST_CASE("test runs every file, sorted, each for itself, and counts") {
+TEST_CASE("test runs every file separately, in sorted order, and counts the results") {
   const Folder folder;
   folder.file(
       "b_test.lua",
@@ -140,7 +140,7 @@ TEST_CASE("test runs every file, sorted, each for itself, and counts") {
   CHECK(has(empty.out, "no *_test.lua in"));
 }
 
-TEST_CASE("temporary files of tests in Lua are gone after the run, also when it fails") {
+TEST_CASE("temporary files of tests in Lua are removed after the run, also after a failure") {
   const Folder folder;
   const std::string file = folder.file("a_test.lua",
                                        "local test = require 'test'\n"
@@ -159,7 +159,7 @@ TEST_CASE("temporary files of tests in Lua are gone after the run, also when it 
   CHECK(paths == 2);
 }
 
-TEST_CASE("Ctrl-C ends a run of tests, with what is known so far and the code 130") {
+TEST_CASE("Ctrl-C ends a run of tests, prints the results so far and exits with 130") {
   const Folder folder;
   folder.file("a_test.lua",
               "local test = require 'test'\n"
@@ -174,7 +174,7 @@ TEST_CASE("Ctrl-C ends a run of tests, with what is known so far and the code 13
   CHECK(result.out.find("begun\n") == std::string::npos);
 }
 
-TEST_CASE("a file of tests that would end the run, or holds none, has failed") {
+TEST_CASE("a test file that ends the program or contains no test fails") {
   const Folder folder;
   folder.file("a_test.lua",
               "local test = require 'test' test('ends', function() os.exit(0) end)\n"
@@ -205,7 +205,7 @@ TEST_CASE("describe prints an entry with ranges and defaults, as text and as JSO
   CHECK(has(unknown.out, "there is no entry 'clench.rda'; did you mean 'clench.rad'?"));
 }
 
-TEST_CASE("doc writes pages, and --check finds one that is out of date") {
+TEST_CASE("doc writes pages, and --check finds an outdated page") {
   const Folder folder;
   const std::string pages = folder / "api";
   CHECK(run("doc " + pages + " --check").code == 1);
@@ -215,7 +215,7 @@ TEST_CASE("doc writes pages, and --check finds one that is out of date") {
   const auto check = run("doc " + pages + " --check");
   CHECK(check.code == 1);
   CHECK(has(check.out, "pose.md is out of date; run clench doc"));
-  // the stub is Lua
+  // the stub is valid Lua
   CHECK(run("run " + pages + "/clench.lua").code == 0);
   const std::string file = folder.file("file", "x");
   CHECK(has(run("doc " + file).out, "the file cannot be written: Not a directory"));
@@ -232,7 +232,7 @@ TEST_CASE("output that cannot be written is an error") {
   }
 }
 
-TEST_CASE("check says what a file is, and fails with 1 when one cannot be read") {
+TEST_CASE("check reports the kind of each file, and exits with 1 if a file cannot be read") {
   const auto flask = run("check models/objects/flask.iv models/hands/barrett/barrett.cfg");
   CHECK(flask.code == 0);
   CHECK(has(flask.out, "models/objects/flask.iv: a body"));
@@ -244,7 +244,7 @@ TEST_CASE("check says what a file is, and fails with 1 when one cannot be read")
   const auto json = run("check --json models/objects/flask.iv");
   CHECK(json.code == 0);
   CHECK(json.out.front() == '[');
-  // names that are no UTF-8 stand escaped, and the other files' reports stay
+  // names that are not UTF-8 are escaped, and the reports of the other files are unchanged
   const Folder folder;
   folder.file("n\xE9\xFF.wld", "x");
   const auto odd = run("check --json " + (folder / "n\xE9\xFF.wld") + " models/objects/flask.iv");
@@ -260,7 +260,7 @@ TEST_CASE("check says what a file is, and fails with 1 when one cannot be read")
   CHECK(run("check").code == 2);
 }
 
-TEST_CASE("strictly read, what is repaired, not used or suspicious is wrong") {
+TEST_CASE("strict reading rejects repaired, unused and suspicious data") {
   const Folder folder;
   const std::string body = folder.file("b.xml", "<root>\n<mass>-300</mass></root>"),
                     world =
@@ -281,7 +281,7 @@ TEST_CASE("strictly read, what is repaired, not used or suspicious is wrong") {
   CHECK(run("convert " + body + " " + out).code == 0);
 }
 
-TEST_CASE("convert writes another format, says what is lost, and fails with 1") {
+TEST_CASE("convert writes another format, reports losses, and exits with 1 on failure") {
   const Folder folder;
   const std::string out = (folder / "flask.stl");
   const auto flask = run("convert models/objects/flask.iv " + out);

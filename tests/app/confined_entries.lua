@@ -1,5 +1,5 @@
 -- Tries every entry of the API that opens a file, in a process whose reading is confined: clench run --confine IN confined_entries.lua IN OUT.
--- IN holds `link`, a link to the folder OUT; OUT holds `file`. An entry whose documentation speaks of files must be listed here.
+-- IN contains `link`, a link to the folder OUT, which contains `file`. An entry whose documentation speaks of files must be listed here.
 local inside, outside = ...
 local doc = require "clench.host.doc"
 local packed_docs = require "clench.signature.packed_docs"
@@ -14,7 +14,7 @@ local empty = clench.world()
 local recording, log = empty:record(), empty:log {quantities = {"energy"}}
 empty:run(0.1)
 
--- reads the path; `[{key}]`: as that option
+-- entries that read the path; `[{key}]` passes it as that option
 local readers = {
   ["clench.file_kind"] = clench.file_kind,
   ["clench.convert"] = function(path) clench.convert(path, inside .. "/x.obj") end,
@@ -53,7 +53,7 @@ for _, name in ipairs {"eigengrasps", "virtual_contacts", "object_contacts", "pr
   readers["clench.files." .. name] = clench.files[name]
 end
 
--- writes to the path
+-- entries that write to the path
 local writers = {
   ["clench.convert"] = function(path) clench.convert(inside .. "/flask.iv", path .. ".obj") end,
   ["clench.files.save_text"] = function(path) clench.files.save_text(path, "text") end,
@@ -78,7 +78,7 @@ local writers = {
   ["grasps:check_save"] = function(path) clench.grasps():check_save(path .. ".jsonl") end,
   ["log:save"] = function(path) log:save(path .. ".csv") end,
   ["recording:save"] = function(path) recording:save(path .. ".gif", {size = {16, 16}}) end,
-  -- what is written beside a file, in a folder that is a link
+  -- files written next to the named file, in a folder that is a link
   ["clench.convert{beside}"] = function(path)
     clench.convert(inside .. "/flask.iv", path:match "^(.*)/link/" .. "/linked.xml")
   end,
@@ -87,7 +87,7 @@ local writers = {
   end,
 }
 
--- entries that speak of files, and open none
+-- entries whose documentation speaks of files, but which open none
 local neither = {
   ["clench.render"] = "options of pictures",
   ["clench.files.csv_records"] = "takes the contents of a file, and its name for errors",
@@ -99,7 +99,7 @@ local neither = {
   ["clench.port.connect"] = "connects to a socket, and opens no file",
 }
 
--- --- what there is ---
+-- --- files ---
 
 local file_keys = {folder = true, package = true, eigengrasps = true, virtual_contacts = true, adapter = true, primitives = true}
 local function looks_like_files(param)
@@ -143,7 +143,7 @@ assert(count > 25, count)
 local paths = {outside .. "/file", inside .. "/../out/file", inside .. "/link/file", inside .. "/linked", outside .. "/none"}
 for name, read in pairs(readers) do
   for _, path in ipairs(paths) do
-    -- a folder that is given is a place where names are looked up, not one that may be left
+    -- a given folder is one in which names are looked up: names in it may not leave it
     local given = name:find "[{]folder" or name:find "[{]package"
     if not (given and path:find "linked$") then
       local ok, message = pcall(read, path)
@@ -158,13 +158,13 @@ end
 local ok, message = pcall(clench.load, inside .. "/world.lua")
 assert(not ok and message:find "a world in Lua is a program", message)
 
--- --- writing: never through a link that lies inside ---
+-- --- writing: never through a link inside the folder ---
 
 for name, write in pairs(writers) do
   local failed, why = pcall(write, inside .. "/link/" .. name:gsub("%W", "_"))
   assert(not failed and tostring(why):find("a link leads out of", 1, true), ("%s wrote through a link: %s"):format(name, tostring(why)))
   if not name:find "{" then
-    -- where the script itself names a place, it may write
+    -- outside of the confined folder, a script may write to paths that it names itself
     local done, problem = pcall(write, outside .. "/written/" .. name:gsub("%W", "_"))
     assert(done, ("%s: %s"):format(name, tostring(problem)))
   end

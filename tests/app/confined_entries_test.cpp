@@ -1,9 +1,9 @@
-// Every entry of the API that opens files, where reading is confined.
+// Every entry of the API that opens files, with confined reading.
 #include "command.h"
 
 using namespace clench::test;
 
-TEST_CASE("every entry that opens files keeps within the folder of --confine, through links, too") {
+TEST_CASE("every entry that opens files stays within the folder of --confine, also through links") {
   const Folder folder;
   const std::string in = folder / "in", out = folder / "out";
   fs::create_directories(out + "/written");

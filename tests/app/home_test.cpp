@@ -1,4 +1,4 @@
-// Our own models and worlds: found from any folder, and before those of others.
+// Shipped models and worlds are found from any folder, and before foreign files of the same name.
 #include "command.h"
 
 using namespace clench::test;
@@ -8,7 +8,7 @@ static const std::string loads =
     "\"models/objects/cube.iv\" "
     "print(#w.objects, clench.file_kind \"worlds/barrett_mug.wld\")'";
 
-TEST_CASE("names of our models and worlds load from any folder") {
+TEST_CASE("names of shipped models and worlds load from any folder") {
   const Folder elsewhere;
   const std::string there = "cd " + (elsewhere / ".") + " &&";
   CHECK(run(loads, "", there).out == "2\tworld\n");
@@ -16,14 +16,14 @@ TEST_CASE("names of our models and worlds load from any folder") {
   CHECK(has(run("-e 'clench.load \"barrett_mug.wld\"'", "", there).out, "no such file"));
   CHECK(has(run("-e 'clench.load \"worlds/barret_mug.wld\"'", "", there).out,
             "did you mean 'barrett_mug.wld'?"));
-  // a file that is there comes first, and confined reading stays where it is
+  // an existing file in the current folder takes precedence, and confined reading stays confined
   elsewhere.file("worlds/barrett_mug.wld", "not a world");
   CHECK(run(loads, "", there).code == 1);
   CHECK(has(run("--confine worlds -e 'clench.load \"worlds/dlr_flask.wld\"'", "", there).out,
             "no such file"));
 }
 
-TEST_CASE("an installed Clench finds its own models, whatever lies above its prefix") {
+TEST_CASE("an installed Clench finds its own models, whatever folders lie above its prefix") {
   const Folder folder;
   const fs::path top = folder / ".";
   fs::create_directories(top / "prefix/bin");
@@ -35,9 +35,9 @@ TEST_CASE("an installed Clench finds its own models, whatever lies above its pre
   folder.file("worlds/barrett_mug.wld", "a stranger's");
   const Folder elsewhere;
   const std::string there = "cd " + (elsewhere / ".") + " && " + (folder / "prefix/bin/clench");
-  // in place of the command that the build made
+  // the installed command, not the one in the build folder
   CHECK(run("", "", there + " " + loads + "; true").out == "2\tworld\n");
-  // when the command's file is replaced while it runs, too, as a build does
+  // also while the file of the command is being replaced, as a build does
   const std::string replaced = " -q -e 'os.remove \"" + (folder / "prefix/bin/clench") +
                                "\" print(clench.file_kind \"worlds/barrett_mug.wld\")'; true";
   CHECK(run("", "", there + replaced).out == "world\n");

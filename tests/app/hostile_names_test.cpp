@@ -1,10 +1,10 @@
-// Files whose names, and the names in which, a terminal would obey: what the command prints of them.
+// Output for file names, and names in files, that contain control sequences of terminals.
 #include "clench/base/printable.h"
 #include "command.h"
 
 using namespace clench::test;
 
-// escape sequences, a line of its own, a C1 control and directions of text
+// escape sequences, a forged line, a C1 control and changes of text direction
 static const std::string hostile =
     "\x1b[31m\r\nerror: forged \xC2\x9B"
     "31m \xE2\x80\xAE gpj \xE2\x81\xA6";
@@ -23,7 +23,7 @@ static bool forges_line(const std::string& text) {
   return forges;
 }
 
-TEST_CASE("characters that a terminal would obey are shown and not sent") {
+TEST_CASE("control characters of terminals are shown in escaped form and not sent") {
   const Folder folder;
   const auto path = [&](const std::string& ending) { return folder / ("a" + hostile + ending); };
   const auto shell = [&](const std::string& ending) { return "'" + path(ending) + "'"; };
@@ -58,7 +58,7 @@ TEST_CASE("characters that a terminal would obey are shown and not sent") {
     CHECK(is_shown(out));
     CHECK_FALSE(forges_line(out));
   }
-  // lines of a script's own messages stay
+  // line breaks in a script's own messages are kept
   for (const std::string& arguments :
        {"run " + shell(".none"), shell(".none"), "-e \"clench.load[[" + path(".wld") + "]]\"",
         "-e \"clench.log.warning[[" + path("") + "]]\"", "-e \"error[[" + path("") + "]]\"",

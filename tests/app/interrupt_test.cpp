@@ -1,4 +1,4 @@
-// Ctrl-C in the middle of one long call of each kind ends the command with code 130.
+// Ctrl-C during one long call of each kind ends the command with code 130.
 #include <chrono>
 #include <fstream>
 #include <sstream>
@@ -11,7 +11,7 @@ using clench::test::has;
 
 namespace {
 
-// `clench <arguments>`, which is interrupted once it has worked for a while
+// `clench <arguments>`, interrupted after it has worked for a while
 class Interrupted {
  public:
   explicit Interrupted(const std::vector<std::string>& arguments) {
@@ -37,18 +37,18 @@ class Interrupted {
   Interrupted(const Interrupted&) = delete;
   Interrupted& operator=(const Interrupted&) = delete;
 
-  /// Waits for a word of the output; without one, for nothing.
+  /// Waits until the output contains a word; returns at once for an empty word.
   void wait_for(const std::string& word) {
     while (text_.find(word) == std::string::npos) REQUIRE_MESSAGE(read_some(patience), text_);
   }
-  /// Waits until the process has used so much time of a processor from now on [s].
+  /// Waits until the process has used this much more processor time [s].
   void let_work(double seconds) {
     const double begin = used();
     const auto end = std::chrono::steady_clock::now() + patience;
     while (used() < begin + seconds && std::chrono::steady_clock::now() < end)
       if (!read_some(std::chrono::milliseconds(5)) && ended_) return;
   }
-  /// returns  the exit code, once the process has ended; -1 when it does not
+  /// returns  the exit code, once the process has ended; -1 if it does not end
   int interrupt() {
     kill(pid_, SIGINT);
     while (!ended_)
@@ -64,7 +64,7 @@ class Interrupted {
  private:
   static constexpr std::chrono::milliseconds patience{20000};
 
-  // false: nothing came in this time, or the process has ended
+  // false if no output came in this time, or the process has ended
   bool read_some(std::chrono::milliseconds time) {
     pollfd waiting{out_, POLLIN, 0};
     if (poll(&waiting, 1, static_cast<int>(time.count())) <= 0) return false;
@@ -101,7 +101,7 @@ void ends_by_interrupt(const std::vector<std::string>& arguments, const std::str
   CHECK_MESSAGE(code == 130, "code ", code, ": ", command.text());
 }
 
-// a script that prepares a call, says so, and makes it
+// a script that prepares a call, prints a line and makes the call
 void call_ends_by_interrupt(const std::string& preparation, const std::string& call) {
   ends_by_interrupt(
       {"-q", "-e", preparation + " io.stdout:write('ready') io.stdout:flush() " + call}, "ready");
@@ -117,13 +117,13 @@ const std::string crowd =
 
 }  // namespace
 
-TEST_CASE("Ctrl-C ends steps of many contacts") { call_ends_by_interrupt(crowd, "w:run(1000)"); }
+TEST_CASE("Ctrl-C ends a step with many contacts") { call_ends_by_interrupt(crowd, "w:run(1000)"); }
 
-TEST_CASE("Ctrl-C ends a step with pyramids for cones") {
+TEST_CASE("Ctrl-C ends a step with friction pyramids") {
   call_ends_by_interrupt(crowd + "w.dynamics = {cone = 'pyramid'} ", "w:run(0.02)");
 }
 
-TEST_CASE("Ctrl-C ends the measures of a grasp of many contacts") {
+TEST_CASE("Ctrl-C ends the measures of a grasp with many contacts") {
   call_ends_by_interrupt(
       "local points = {} for i = 1, 500 do local z = 2 * (i - 0.5) / 500 - 1 "
       "local a, r = 2.4 * i, math.sqrt(1 - z * z) "
@@ -133,7 +133,7 @@ TEST_CASE("Ctrl-C ends the measures of a grasp of many contacts") {
       "space:epsilon()");
 }
 
-TEST_CASE("Ctrl-C ends the contacts of large meshes that lie on each other") {
+TEST_CASE("Ctrl-C ends the contact search of large meshes that lie on each other") {
   call_ends_by_interrupt(
       "local S, w = clench.shapes, clench.world() local ball = S.sphere {0.1, subdivisions = 5} "
       "ball.round = nil "
@@ -146,7 +146,7 @@ TEST_CASE("Ctrl-C ends parallel work") {
       "", "clench.parallel.map(function() while true do end end, {1, 2}, {threads = 2})");
 }
 
-TEST_CASE("Ctrl-C ends tests") {
+TEST_CASE("Ctrl-C ends a run of tests") {
   const Folder folder;
   const auto file =
       folder.file("long_test.lua",
@@ -155,7 +155,7 @@ TEST_CASE("Ctrl-C ends tests") {
   ends_by_interrupt({"test", file}, "ready");
 }
 
-TEST_CASE("Ctrl-C ends the start of a search for a hand of many links") {
+TEST_CASE("Ctrl-C ends the preparation of a search for a hand with many links") {
   const Folder folder;
   std::string text =
       "<robot name=\"r\"><link name=\"l0\"><collision><geometry><box size=\"0.05 0.05 0.05\"/>"

@@ -1,11 +1,11 @@
-// Modules that a command runs: those of Clench and those of the script.
+// Modules that a command loads: those of Clench and those of the script.
 #include "command.h"
 
 using clench::test::Folder;
 using clench::test::has;
 using clench::test::run;
 
-// files with the names of our modules, each of which says that it has been run
+// files with the names of Clench's modules, each of which prints a line when it runs
 static void plant(const Folder& folder) {
   for (const std::string name : {"clench",
                                  "clench/init",
@@ -32,10 +32,10 @@ static void plant(const Folder& folder) {
                                  "host/check",
                                  "host/paths"})
     folder.file(name + ".lua", "io.stdout:write 'PLANTED\\n' return {}");
-  folder.file("clench.so", "PLANTED");  // to open it would be an error
+  folder.file("clench.so", "PLANTED");  // opening it would be an error
 }
 
-TEST_CASE("files that are called like modules of ours are never run in their place") {
+TEST_CASE("user files with the names of Clench's modules never run in their place") {
   const Folder folder;
   plant(folder);
   const auto flask = std::filesystem::absolute("models/objects/flask.iv").string();
@@ -71,7 +71,7 @@ TEST_CASE("files that are called like modules of ours are never run in their pla
   CHECK(has(run("run " + script).out, "no module 'clench.mine' in clench's standard library"));
 }
 
-TEST_CASE("a script's own modules lie beside it, then where LUA_PATH says, and nowhere else") {
+TEST_CASE("a script's own modules are found next to it, then by LUA_PATH, and nowhere else") {
   const Folder folder;
   folder.file("mine.lua", "return 'where one stands'");
   folder.file("sub/mine.lua", "return 'beside ' .. select(2, ...)");
@@ -100,7 +100,7 @@ TEST_CASE("a script's own modules lie beside it, then where LUA_PATH says, and n
             "no file 'other/parts.lua'"));
 }
 
-TEST_CASE("a world in Lua finds its modules beside it while it is run") {
+TEST_CASE("a world in Lua finds the modules next to it while it runs") {
   const Folder folder;
   folder.file("w/parts.lua", "return clench.world()");
   folder.file("w/world.lua", "return require 'parts'");

@@ -28,7 +28,7 @@ inline std::string cube_of(double side) {
          "f 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
 }
 
-// what a script of the shell prints
+// output of a shell script
 inline std::string output_of(const std::string& script) {
   const Folder folder;
   FILE* pipe = popen(("bash " + folder.file("script.sh", script) + " 2>&1").c_str(), "r");

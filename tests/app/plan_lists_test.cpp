@@ -1,4 +1,4 @@
-// The list that `clench plan -o` writes: kept, replaced, resumed and refused.
+// The list that `clench plan -o` writes: kept, replaced, resumed and rejected.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -8,7 +8,8 @@
 using namespace clench::test;
 
 TEST_CASE(
-    "a search that is killed, cut, stopped and resumed finds what one without a break finds") {
+    "a search that is killed, truncated, stopped and resumed finds the same grasps as an "
+    "uninterrupted one") {
   const Folder folder;
   const std::string out = folder / "a.jsonl", other = folder / "b.jsonl";
   const std::string command = barrett + "--no-verify --seed 3 -o " + out;
@@ -25,7 +26,7 @@ TEST_CASE(
   CHECK(!fs::exists(out + ".search"));
   CHECK(run(barrett + "--no-verify --seed 3 --threads 1 --count 12 -o " + other).code == 0);
   CHECK(text_of(out) == text_of(other));
-  // there is nothing left to do
+  // a complete search has no work left
   const auto done = run(command + " --resume --count 12");
   CHECK(done.code == 0);
   CHECK(has(done.out, "a.jsonl: the search is complete\n"));
@@ -55,7 +56,7 @@ TEST_CASE("a search is written in several formats at once") {
   CHECK(has(dotted.out, "is given twice"));
 }
 
-TEST_CASE("a list that exists is replaced or continued only as asked") {
+TEST_CASE("an existing list is replaced or continued only on request") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
   const std::string command = barrett + "--no-verify --count 1 -o " + out;
@@ -89,7 +90,7 @@ TEST_CASE("a list that exists is replaced or continued only as asked") {
   refused(barrett + "--overwrite", "--overwrite requires -o FILE", 2);
   refused(barrett + "--resume -o " + (folder / "a.csv"),
           "--resume: expected a list of JSON lines, -o FILE.jsonl, got '" + (folder / "a.csv"), 2);
-  // the same search, said otherwise
+  // the same search, with other spellings of its options
   refused(command + " --seed 01 --contacts any --pose 0,0,0 --threads 1",
           "is the list of this search");
   // other files
@@ -135,7 +136,7 @@ TEST_CASE("a search that fails or finds nothing leaves files unchanged") {
   check_old();
 }
 
-TEST_CASE("pipes, devices and folders are no files that plan writes") {
+TEST_CASE("plan does not write its list to pipes, devices or folders") {
   const Folder folder;
   for (const char* name : {"pipe.jsonl", "pipe.png", "pipe.html", "pipe.csv"})
     REQUIRE(mkfifo((folder / name).c_str(), 0600) == 0);
@@ -163,7 +164,7 @@ TEST_CASE("pipes, devices and folders are no files that plan writes") {
 TEST_CASE("on a full disk a search ends, prints its grasps, and reports the error once") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
-  // so many blocks of 512 or 1024 bytes that a few grasps fit
+  // a limit in blocks of 512 or 1024 bytes that a few grasps fit in
   const auto result = run(barrett + "--no-verify --count 60 -o " + out, "", "ulimit -f 48;");
   CHECK(result.code == 1);
   CHECK(has(result.out, "clench plan: " + out + ": the file cannot be written: File too large\n"));
@@ -175,7 +176,7 @@ TEST_CASE("on a full disk a search ends, prints its grasps, and reports the erro
   CHECK(list.find("clench") == std::string::npos);
 }
 
-TEST_CASE("a list that another program has replaced meanwhile is left to it") {
+TEST_CASE("a list that another program has replaced meanwhile is not overwritten") {
   const Folder folder;
   const std::string out = folder / "a.jsonl", theirs = folder.file("theirs", "theirs\n");
   const std::string text =

@@ -1,4 +1,4 @@
-// `clench plan`: what it prints and writes, and how it ends.
+// `clench plan`: its output, its files and its exit codes.
 #include <algorithm>
 
 #include "plan_command.h"
@@ -6,14 +6,14 @@
 
 using namespace clench::test;
 
-TEST_CASE("plan lists the best grasps, writes them best first, and says what was done") {
+TEST_CASE("plan lists the best grasps, writes them best first, and reports its work") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
   const std::string sheet = folder / "a.png";
   const std::string table = folder / "a.tex";
   const auto result = run(barrett + "--count 2 -o " + out + " --sheet " + sheet +
                           " --size 100x80 --table " + table);
-  // the sheet needs OpenGL, and nothing else does
+  // only the sheet requires OpenGL
   const bool drawn = fs::exists(sheet);
   CHECK(result.code == (drawn ? 0 : 1));
   CHECK(has(result.out, drawn ? "a.png: 2 pictures" : "OpenGL"));
@@ -33,7 +33,7 @@ TEST_CASE("plan lists the best grasps, writes them best first, and says what was
   CHECK(std::count(list.begin(), list.end(), '\n') == 2);
 }
 
-TEST_CASE("plan asks for fingertip grasps") {
+TEST_CASE("plan searches for fingertip grasps on request") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
   const auto result = run(barrett + "--count 3 --contacts fingertip -o " + out);
@@ -92,7 +92,7 @@ TEST_CASE("wrong options of plan are reported in one sentence, before the search
   CHECK(has(help.out, "Examples:\n  clench plan "));
 }
 
-TEST_CASE("an object without triangles cannot be planned for") {
+TEST_CASE("plan rejects an object without triangles") {
   const Folder folder;
   const auto empty = folder.file("empty.obj", "v 0 0 0\n");
   const auto result = run("plan models/hands/barrett/barrett.cfg " + empty);
@@ -100,7 +100,7 @@ TEST_CASE("an object without triangles cannot be planned for") {
   CHECK(has(result.out, "empty.obj"));
 }
 
-TEST_CASE("where nothing is found, plan ends with 1 and says why") {
+TEST_CASE("if nothing is found, plan exits with 1 and reports why") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
   const auto object = folder.file("cube.obj", cube_of(1));
@@ -114,7 +114,7 @@ TEST_CASE("where nothing is found, plan ends with 1 and says why") {
   CHECK(epsilons(out).empty());
 }
 
-TEST_CASE("a signal ends a search with the grasps so far and its code") {
+TEST_CASE("a signal ends a search with the grasps so far and the exit code of the signal") {
   const std::pair<const char*, int> signals[] = {{"INT", 130}, {"TERM", 143}, {"HUP", 129}};
   for (const auto& [signal, code] : signals) {
     const Folder folder;
@@ -129,7 +129,7 @@ TEST_CASE("a signal ends a search with the grasps so far and its code") {
     const std::string list = epsilons(out);
     CHECK(list.find("clench") == std::string::npos);
     CHECK(std::stod(list) >= std::stod(list.substr(list.find('\n'))));
-    // without OpenGL there is no sheet
+    // plan writes no sheet without OpenGL
     CHECK((has(text, fs::exists(sheet) ? "a.png: " : "OpenGL")));
   }
 }
@@ -137,7 +137,7 @@ TEST_CASE("a signal ends a search with the grasps so far and its code") {
 TEST_CASE("a second signal ends a search at once") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
-  // stopped meanwhile, the process gets both together
+  // while stopped, the process receives both signals together
   const std::string text = end_by("CONT", barrett + "--no-verify --seconds 60 -o " + out, out,
                                   "kill -STOP $pid\nkill -TERM $pid\nkill -INT $pid\n");
   CHECK((text.ends_with("code 143\n") || text.ends_with("code 130\n")));
@@ -146,14 +146,15 @@ TEST_CASE("a second signal ends a search at once") {
 }
 
 TEST_CASE(
-    "killing a search loses none of the grasps that its file has, and at most the last second's") {
+    "a killed search loses at most the grasps of its last second, and none that its file "
+    "contains") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
   const std::string text = end_by(
       "KILL", barrett + "--no-verify --seconds 60 --threads 1 -o " + out, out,
       "lines=$(wc -l < " + out + ")\nsleep 1\necho more $(( $(wc -l < " + out + ") - lines ))");
   CHECK(has(text, "code 137"));
-  // within that second more were written, each whole; under the sanitizers a grasp takes longer
+  // more complete lines were written within that second; under the sanitizers a grasp takes longer
   if (clench::test::cases(8) == 8) CHECK(std::stoi(text.substr(text.rfind("more ") + 5)) > 0);
   const std::string list = epsilons(out), file = text_of(out);
   CHECK(list.find("clench") == std::string::npos);
@@ -178,17 +179,16 @@ print(problem.kind, problem.sentence)
   }
 }
 
-// under the sanitizers the time that is left after Ctrl-C is too short for what planners do then
+// under the sanitizers the time limit after Ctrl-C is too short for the remaining work of planners
 #ifndef __SANITIZE_ADDRESS__
 TEST_CASE(
-    "Ctrl-C in the middle of any planner: the script gets the grasps so far, and ends with the "
-    "code 130") {
+    "Ctrl-C during any planner passes the grasps so far to the script, which exits with 130") {
   const Folder folder;
   const std::vector<std::string> planners = {"anneal",    "sample", "guided", "loop",
                                              "primitive", "random", "list",   "antipodal"};
   for (const std::string& planner : planners) {
     const std::string out = folder / planner;
-    // an energy that is asked, or a grasp that is found, says that it is under way
+    // an evaluated energy or a found grasp shows that the search has started
     const auto script =
         folder.file(planner + ".lua", "local planner, out = '" + planner + "', '" + out + R"('
 local world = clench.load("worlds/barrett_mug.wld", {root = "."})
@@ -224,7 +224,7 @@ while planner == "anneal" do end
 
 #endif
 
-TEST_CASE("a search that is killed leaves its grasps in a list that can be read") {
+TEST_CASE("a killed plan search leaves its grasps in a readable list") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
   CHECK(has(end_by("KILL", barrett + "--seconds 60 -o " + out, out), "code 137"));
@@ -233,7 +233,8 @@ TEST_CASE("a search that is killed leaves its grasps in a list that can be read"
   CHECK(std::count(list.begin(), list.end(), '\n') >= 2);
 }
 
-TEST_CASE("names that are HTML or no UTF-8 stay words in the page and in the list") {
+TEST_CASE(
+    "names that contain HTML or invalid UTF-8 are shown as text in the page and in the list") {
   const Folder folder;
   const auto object =
       folder.file("<script>alert(1)<\x2fscript><img src=x>\xE9'.obj", cube_of(0.05));
@@ -245,19 +246,19 @@ TEST_CASE("names that are HTML or no UTF-8 stay words in the page and in the lis
           " --pose 0,0,0.5,0,0,90 --obstacle models/obstacles/floor.iv --obstacle-pose -0.25,0,-1");
   CHECK(result.code <= 1);
   const std::string html = text_of(page);
-  // without three.js there is no page
+  // without three.js no page is written
   if (result.out.find("three.js, which is not installed") != std::string::npos) return;
   CHECK(has(html, "&lt;img src=x&gt;\\xE9&#39;"));
   CHECK(html.find("<img src=x") == std::string::npos);
   CHECK(html.find("alert(1)</") == std::string::npos);
   CHECK(html.find('\xE9') == std::string::npos);
-  // both stand where they were put
+  // obstacle and object have the given poses
   CHECK(has(html, R"("kind":"obstacle","mesh")"));
   CHECK(has(html, R"("pose":[-0.25,0,-1.0,1.0,0,0,0])"));
   CHECK(has(html, R"("object_pose":[0,0,0.5,0.707107,0,0,0.707107])"));
 }
 
-TEST_CASE("--force-ratio says how hard verified grasps may press") {
+TEST_CASE("--force-ratio limits the grip forces of verified grasps") {
   const std::string plan = "plan models/hands/barrett/barrett.cfg models/objects/mug.iv --count 1 ";
   const auto hard = run(plan + "--force-ratio 20");
   CAPTURE(hard.out);
@@ -318,7 +319,7 @@ TEST_CASE("a hand without motors has no verified grasps, and plan names its join
             "disables"));
 }
 
-TEST_CASE("--verify shakes the grasps, and --keep-lost marks those that are lost") {
+TEST_CASE("--verify shakes the grasps, and --keep-lost marks lost grasps") {
   const auto survived = run(
       "plan models/hands/barrett/barrett.cfg models/objects/mug.iv --count 1 --verify --mass 0.1");
   CAPTURE(survived.out);
@@ -335,7 +336,7 @@ TEST_CASE("--verify shakes the grasps, and --keep-lost marks those that are lost
 }
 
 TEST_CASE(
-    "plan takes friction, material and how the hand closes, and states them with their source") {
+    "plan takes friction, material and closing velocities, and prints them with their source") {
   const auto by_material = run(barrett + "--count 1 --no-verify --material rubber");
   CHECK(has(by_material.out, "on rubber"));
   CHECK(has(by_material.out, "of the object: --material"));
@@ -348,7 +349,7 @@ TEST_CASE(
   CHECK(has(closing.out, "--approach 0,0,1,0,0,0.1 --close 2,3,4"));
 }
 
-TEST_CASE("plan names what is wrong with --friction, --close, --approach and --distance") {
+TEST_CASE("plan reports faults of --friction, --close, --approach and --distance") {
   const auto said = [](const std::string& options, const std::string& sentence) {
     const auto result = run(barrett + options);
     CHECK(result.code != 0);

@@ -1,7 +1,7 @@
 // Epsilon of the grasps of a file by a program that shares no code with the engine: it reads JSON
-// lines, makes the friction pyramids from points, normals and coefficients, and asks qhull for
-// their hull.
-//   recompute_epsilon FILE.jsonl...     exit code 1 when a grasp differs by more than 1e-6
+// lines, makes the friction pyramids from points, normals and coefficients, and computes their hull
+// with qhull.
+// recompute_epsilon FILE.jsonl...     exit code 1 if a grasp differs by more than 1e-6
 #include <Eigen/Geometry>
 #include <cstdio>
 #include <fstream>
@@ -21,7 +21,7 @@ Vector3d vector_of(const json& list) {
   return Vector3d(list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>());
 }
 
-/// unit normal forces along the edges of a pyramid, the first along n x e1
+/// unit normal forces along the edges of a pyramid, the first edge along n x e1
 std::vector<Vector3d> edges_of(const Vector3d& n, double mu, int count) {
   if (mu == 0) return {n};
   const bool along_x = std::abs(n.x()) > 1 - 1e-9;
@@ -52,12 +52,13 @@ Eigen::MatrixXd wrenches_of(const json& grasp) {
   return out;
 }
 
-/// the largest ball about the origin within the hull; 0 where it lies outside or the hull is flat
+/// radius of the largest ball about the origin within the hull; 0 if the origin is outside or the
+/// hull is flat
 double epsilon_of(const json& grasp) {
   const Eigen::MatrixXd wrenches = wrenches_of(grasp);
   if (wrenches.cols() < 7) return 0;
-  // where many wrenches lie in one plane but for rounding, qhull refuses to give facets unless it
-  // may move the points a little
+  // if many wrenches lie in one plane except for rounding, qhull computes no facets unless it may
+  // move the points a little
   auto hull = clench::bench::ask_qhull(wrenches, "qhull Qt");
   if (!hull) hull = clench::bench::ask_qhull(wrenches, "qhull QJ");
   return hull ? std::max(0.0, hull->min_offset) : 0;

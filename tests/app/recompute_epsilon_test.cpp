@@ -17,7 +17,7 @@ static Outcome recompute(const std::string& path) {
   return result;
 }
 
-TEST_CASE("epsilon of planned grasps is that of an independent program, for three hands") {
+TEST_CASE("epsilon of planned grasps equals that of an independent program, for three hands") {
   const Folder folder;
   const std::vector<std::string> hands = {"barrett/barrett.cfg", "dlr/dlr.cfg",
                                           "parallel_jaw/parallel_jaw.cfg"};
@@ -37,7 +37,7 @@ run.grasps:save(")" + out + R"("))");
   }
 }
 
-TEST_CASE("the program finds a grasp whose epsilon is not what its line says") {
+TEST_CASE("the comparison finds a grasp whose epsilon differs from that in its line") {
   const Folder folder;
   const std::string out = folder / "a.jsonl";
   REQUIRE(run("plan models/hands/barrett/barrett.cfg models/objects/flask.iv --count 1 -o " + out)

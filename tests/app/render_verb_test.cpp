@@ -19,14 +19,14 @@ std::pair<int, int> size_of_png(const std::string& path) {
   return {number(16), number(20)};
 }
 
-// draws, or is without OpenGL: then nothing is checked but that it says so
+// draws; without OpenGL it only checks that the message names OpenGL
 bool drawn(const std::string& options, const std::string& path) {
   const auto result = run("render " + options + " -o " + path);
   if (result.code != 0) CHECK(has(result.out, "OpenGL"));
   return result.code == 0;
 }
 
-// a list of grasps of a hand that is closed on a flask, each the same
+// a list of equal grasps of a hand that is closed on a flask
 std::string list_of(const Folder& folder, int count) {
   const std::string path = folder / "list.jsonl";
   run("-q -e 'local w = clench.load(\"worlds/dlr_flask.wld\", {root = \".\"}) "
@@ -39,8 +39,7 @@ std::string list_of(const Folder& folder, int count) {
 
 }  // namespace
 
-TEST_CASE(
-    "render draws worlds, robots, bodies and grasps of lists, in the size that is asked for") {
+TEST_CASE("render draws worlds, robots, bodies and grasps of lists, in the requested size") {
   const Folder folder;
   const std::string out = folder / "a.png";
   if (!drawn("worlds/dlr_flask.wld --root . --quality draft --size 64x48", out)) return;
@@ -53,12 +52,12 @@ TEST_CASE(
   const std::string list = list_of(folder, 5);
   CHECK(drawn(list + " --pick 2 --quality draft --size 64x48", out));
   CHECK(size_of_png(out) == std::pair(64, 48));
-  // several stand on a sheet: 3 columns, each with a caption, and notes below
+  // several grasps form a sheet: 3 columns, each with a caption, and notes below
   CHECK(drawn(list + " --pick 1,3,5 --size 64x48", out));
   const auto sheet = size_of_png(out);
   CHECK(sheet.first > 2 * 64);
   CHECK(sheet.second > 48 + 22);
-  // the same to the byte
+  // byte-identical when drawn again
   const std::string before = text_of(out);
   CHECK(drawn(list + " --pick 1,3,5 --size 64x48", out));
   CHECK(text_of(out) == before);

@@ -5,7 +5,7 @@ using clench::test::run;
 using clench::test::Terminal;
 namespace fs = std::filesystem;
 
-TEST_CASE("piped lines are run one chunk at a time, an error leaves the session alive") {
+TEST_CASE("piped lines run chunk by chunk, and an error does not end the session") {
   const auto result = run("repl",
                           "x = 3\n=x\nx + 1\nfunction f()\n  return clench.vec3(1, 2, 3), {a = "
                           "1}\nend\nf()\nerror 'no'\n"
@@ -18,7 +18,7 @@ TEST_CASE("piped lines are run one chunk at a time, an error leaves the session 
   CHECK(result.out.ends_with("last\n"));
 }
 
-TEST_CASE("an error in piped input is told with its line of the input") {
+TEST_CASE("an error in piped input is reported with its line of the input") {
   const auto out =
       run("repl", "\nx = = 1\nfor i = 1, 2 do\n\nerror 'here'\nend\n=error 'there'\n").out;
   CHECK(out.find("input:2: unexpected symbol near '='") != std::string::npos);
@@ -26,13 +26,13 @@ TEST_CASE("an error in piped input is told with its line of the input") {
   CHECK(out.find("input:7: there") != std::string::npos);
 }
 
-TEST_CASE("an input that ends inside a chunk says so") {
+TEST_CASE("input that ends inside a chunk is reported") {
   const auto result = run("repl", "for i = 1, 2 do\n");
   CHECK(result.code == 1);
   CHECK(result.out == "clench repl: the input ended inside a chunk\n");
 }
 
-TEST_CASE("-i runs a file, then the console, also when the file failed") {
+TEST_CASE("-i runs a file, then the console, also if the file failed") {
   const Folder folder;
   CHECK(run("-i " + folder.file("a.lua", "y = 5"), "=y\n").out == "5\n");
   const auto failed = run("-i " + folder.file("b.lua", "y = 6 error('no', 0)"), "=y\n");
@@ -49,8 +49,8 @@ TEST_CASE("help explains functions, values and names") {
           "'gif'\nhelp 'nonsense'\n")
           .out;
   for (const char* part :
-       {"clench.rad(degrees)\n  Degrees to radians.", "pose: An immutable rigid transform", ".position",
-        "pose:inverse()", "clench.json.encode", "help(x) explains a value",
+       {"clench.rad(degrees)\n  Degrees to radians.", "pose: An immutable rigid transform",
+        ".position", "pose:inverse()", "clench.json.encode", "help(x) explains a value",
         "there is no help for 5", "clench.shapes.box(options)\n",
         "clench.study.robustness(grasp, options)", "string.rep is a function of Lua",
         "clench.stats.quantile ",
@@ -59,7 +59,7 @@ TEST_CASE("help explains functions, values and names") {
     CHECK_MESSAGE(out.find(part) != std::string::npos, part);
 }
 
-TEST_CASE("what the README shows may be typed") {
+TEST_CASE("the README's console session can be typed") {
   std::ifstream file("README.md");
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   const size_t begin = text.find("```lua\n") + 7, end = text.find("```", begin);
@@ -69,7 +69,7 @@ TEST_CASE("what the README shows may be typed") {
   CHECK_MESSAGE(result.out.ends_with("\n1\n"), result.out);
 }
 
-TEST_CASE("top-level locals live on, shared with the functions that use them") {
+TEST_CASE("top-level locals persist, shared with the functions that use them") {
   const auto out = run("repl",
                        "local n = 0 local function inc() n = n + 1 return n end\n"
                        "inc() inc()\nn\nn = 10 print(inc())\n"
@@ -85,13 +85,14 @@ TEST_CASE("top-level locals live on, shared with the functions that use them") {
   CHECK(out.ends_with("nil\n"));
 }
 
-TEST_CASE("more locals than a function of Lua may have are forgotten from the oldest on") {
+TEST_CASE("locals beyond the limit of a Lua function are dropped, the oldest first") {
   std::string input;
   for (int i = 0; i < 400; ++i) input += fmt::format("local v{} = {}\n", i, i);
   CHECK(run("repl", input + "v399 + v300, v0\n").out == "699\tnil\n");
 }
 
-TEST_CASE("exit and quit leave, _ is the last value, and an unfinished string is an error") {
+TEST_CASE(
+    "exit and quit end the session, _ is the last value, and an unfinished string is an error") {
   CHECK(run("repl", "6 * 7\n_ + 1\nnil\n_\nexit\nprint 'not here'\n").out == "42\n43\nnil\n43\n");
   CHECK(run("repl", "quit()\n7\n").out.empty());
   const auto out = run("repl", "x = \"abc\n5\n").out;
@@ -99,13 +100,13 @@ TEST_CASE("exit and quit leave, _ is the last value, and an unfinished string is
   CHECK(out.ends_with("5\n"));
 }
 
-TEST_CASE("a script's own help and show stay its own") {
+TEST_CASE("a script's own help and show take precedence") {
   const Folder folder;
   const auto file = folder.file("a.lua", "function show() return 'mine' end help = 5");
   CHECK(run("-i " + file, "show(), help\n").out == "mine\t5\n");
 }
 
-TEST_CASE("show prints the whole of a table") {
+TEST_CASE("show prints a complete table") {
   const auto out = run("repl", "t = {} for i = 1, 300 do t[i] = i end\nt\nshow(t)\n").out;
   CHECK(out.find("more}") != std::string::npos);
   CHECK(out.ends_with("299, 300}\n"));
@@ -129,7 +130,7 @@ TEST_CASE("on a terminal: results, errors, unfinished lines, Ctrl-D") {
   CHECK(terminal.wait_for_end() == 0);
 }
 
-TEST_CASE("coroutines of the loop run while the prompt waits, and the typed line stays") {
+TEST_CASE("coroutines of the loop run while the prompt waits, and the typed line is kept") {
   const Folder home;
   Terminal terminal(home);
   terminal.wait_for("> ");
@@ -162,7 +163,7 @@ TEST_CASE("coroutines of the loop run while the prompt waits, and the typed line
   CHECK(terminal.wait_for_end() == 0);
 }
 
-TEST_CASE("Tab completes globals, fields and methods, and lists what is ambiguous") {
+TEST_CASE("Tab completes globals, fields and methods, and lists ambiguous names") {
   const Folder home;
   Terminal terminal(home);
   terminal.wait_for("> ");
@@ -200,7 +201,7 @@ TEST_CASE("Tab completes files, bodies, measures and options") {
   terminal.wait_for(fmt::format("{}\r\n", std::string("worlds/dlr_flask.wld").size()));
 }
 
-TEST_CASE("a pasted tab is a tab") {
+TEST_CASE("a pasted tab is inserted as a tab") {
   const Folder home;
   Terminal terminal(home);
   terminal.wait_for("\x1b[?2004h");
@@ -234,7 +235,7 @@ TEST_CASE("Ctrl-C interrupts a running chunk, and clears a half-typed line") {
   terminal.wait_for("still here");
 }
 
-TEST_CASE("history outlives the session, and a chunk of several lines is one entry") {
+TEST_CASE("history persists across sessions, and a chunk of several lines is one entry") {
   const Folder home;
   {
     Terminal terminal(home);
@@ -251,14 +252,14 @@ TEST_CASE("history outlives the session, and a chunk of several lines is one ent
   terminal.wait_for("> ");
   terminal.enter("x = 1");
   terminal.wait_for("> ");
-  // two up: past x = 1
+  // two entries up: past x = 1
   terminal.enter("\x1b[A\x1b[A");
   terminal.wait_for("> ");
   terminal.enter("'x is ' .. x");
   terminal.wait_for("x is 2");
 }
 
-TEST_CASE("no arguments on a terminal open the console") {
+TEST_CASE("without arguments, the command opens the console on a terminal") {
   const Folder home;
   Terminal terminal(home, "-q");
   terminal.wait_for("exit leaves");
@@ -267,7 +268,7 @@ TEST_CASE("no arguments on a terminal open the console") {
   terminal.wait_for("true");
 }
 
-TEST_CASE("a signal that ends the console ends it as that signal, and gives the terminal back") {
+TEST_CASE("a signal ends the console with the signal's exit status, and the terminal is restored") {
   for (const int signal : {SIGTERM, SIGHUP, SIGQUIT}) {
     CAPTURE(signal);
     const Folder home;
@@ -296,7 +297,8 @@ TEST_CASE("a signal that ends the console ends it as that signal, and gives the 
   }
 }
 
-TEST_CASE("messages of other threads replace the bar, and their own bars stay hidden") {
+TEST_CASE(
+    "messages of other threads replace the progress bar, and bars of other threads stay hidden") {
   const Folder home;
   Terminal terminal(home);
   terminal.wait_for("> ");
@@ -315,13 +317,13 @@ TEST_CASE("messages of other threads replace the bar, and their own bars stay hi
   CHECK(seen.find("inner") == std::string::npos);
 }
 
-TEST_CASE("a console that is stopped gives the terminal back, and takes it again when it goes on") {
+TEST_CASE("a stopped console restores the terminal, and takes it again when it continues") {
   const Folder home;
   Terminal terminal(home);
   terminal.wait_for("> ");
   kill(terminal.process(), SIGTSTP);
   int status = 0;
-  // an orphaned group of processes is not stopped: then there is nothing to see but that it goes on
+  // an orphaned process group is not stopped: then only the continuation is checked
   waitpid(terminal.process(), &status, WUNTRACED | WNOHANG);
   kill(terminal.process(), SIGCONT);
   terminal.enter("'still ' .. 'here'");

@@ -14,7 +14,7 @@ using namespace clench::test;
 
 namespace {
 
-// a server in the background, and what it prints
+// a server in the background, and its output
 class Served {
  public:
   explicit Served(const std::string& arguments) {
@@ -57,7 +57,7 @@ class Served {
   std::string line_;
 };
 
-// the replies to some lines, until the server has sent so many
+// replies to some lines, read until the server has sent the given number
 std::string ask_port(int port, const std::string& text, int lines) {
   const int client = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
@@ -87,7 +87,7 @@ TEST_CASE("a world is served until a signal ends it") {
   }
 }
 
-TEST_CASE("the token of a server is kept in a file of its user, as long as it runs") {
+TEST_CASE("the token of a server is kept in a file of its user while it runs") {
   const Folder folder;
   const std::string file = folder / "token";
   Served server("serve worlds/barrett_mug.wld --root . --port 0 --token-file " + file);
@@ -109,7 +109,7 @@ TEST_CASE("the token of a server is kept in a file of its user, as long as it ru
   CHECK(stat(file.c_str(), &found) != 0);
 }
 
-TEST_CASE("faults of clench serve are named") {
+TEST_CASE("clench serve reports faults of its options") {
   CHECK(run("serve").code == 2);
   CHECK(run("serve worlds/barrett_mug.wld --port 70000").code == 2);
   const Outcome missing = run("serve no_such.wld --port 0");
@@ -123,7 +123,7 @@ TEST_CASE("faults of clench serve are named") {
   CHECK(has(second.out, "Address already in use"));
 }
 
-TEST_CASE("a program that starts a server may talk to it over standard input and output") {
+TEST_CASE("a program that starts a server may use it through standard input and output") {
   const std::string requests =
       "{\"jsonrpc\":\"2.0\",\"id\":1,\"method\":\"world.hash\"}\n"
       "{\"jsonrpc\":\"2.0\",\"id\":2,\"method\":\"hello\"}\n"

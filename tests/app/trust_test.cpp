@@ -23,7 +23,7 @@ static constexpr const char* endings[] = {
     "return os.exit",
 };
 
-TEST_CASE("a checked or converted file cannot end the program, however it asks for that") {
+TEST_CASE("a checked or converted file cannot end the program by any function") {
   const Folder folder;
   for (const char* code : endings) {
     CAPTURE(std::string(code));
@@ -49,7 +49,7 @@ TEST_CASE("a checked or converted file cannot end the program, however it asks f
             "w.lua:3: os.exit: a file"));
 }
 
-// errors whose values say nothing, or too much
+// errors whose values give no message, or a very long one
 static constexpr const char* errors[] = {
     "error(setmetatable({}, {__tostring = function() error 'worse' end}))",
     "error(setmetatable({}, {__tostring = function() error() end}))",
@@ -66,7 +66,7 @@ static constexpr const char* errors[] = {
     "local t = {} t[1] = t error(t)",
 };
 
-TEST_CASE("an error whose value cannot be printed is told by a sentence") {
+TEST_CASE("an error whose value cannot be printed is reported in one sentence") {
   const Folder folder;
   for (const char* code : errors) {
     CAPTURE(std::string(code));
@@ -91,7 +91,7 @@ TEST_CASE("an error whose value cannot be printed is told by a sentence") {
   CHECK(has(run("-e 'error((\"x\"):rep(1e5), 0)'").out, "xx... (100000 characters)\nstack"));
 }
 
-TEST_CASE("--confine keeps every verb's reading of models below a folder") {
+TEST_CASE("--confine restricts reading of models to a folder, for every verb") {
   const Folder folder;
   fs::create_directories(folder / "in");
   fs::copy_file("models/objects/flask.iv", folder / "flask.iv");
@@ -117,7 +117,7 @@ TEST_CASE("--confine keeps every verb's reading of models below a folder") {
   CHECK(world.code == 1);
   CHECK(has(world.out, "w.lua: a world in Lua is a program, which reads what it likes"));
 
-  // for scripts it is the default, which a call may change
+  // scripts inherit the folder as their default, which a call may change
   const std::string script = folder.file(
       "s.lua",
       "local in_, out = ...\nlocal w = clench.world()\nw:add_object(in_ .. '/flask.iv')\n"
@@ -146,7 +146,7 @@ TEST_CASE("--confine keeps every verb's reading of models below a folder") {
   CHECK(run("check --confine " + (folder / "none") + " " + in + "/flask.iv").code == 2);
 }
 
-TEST_CASE("every verb that loads says in its help what is a program and what is not") {
+TEST_CASE("every verb that loads files names in its help the files that are run as programs") {
   for (const std::string verb : {"run", "test", "repl", "check", "convert"}) {
     const auto help = run(verb + " --help");
     CHECK(has(help.out, "Scripts and worlds in Lua are programs; files of every other format run"));

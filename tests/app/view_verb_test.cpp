@@ -1,4 +1,5 @@
-// `clench view`: one frame as a picture, and what it refuses. The window has its test in tests/scripts.
+// `clench view`: one frame as a picture, and rejected arguments. The window is tested in
+// tests/scripts.
 #include <algorithm>
 
 #include "command.h"
@@ -9,7 +10,7 @@ namespace {
 
 const std::string no_display = "env -u DISPLAY -u WAYLAND_DISPLAY";
 
-// a sentence on stderr, no more
+// exactly one sentence on stderr
 void refused(const Outcome& outcome, int code, const std::string& sentence) {
   CHECK(outcome.code == code);
   CHECK(has(outcome.out, sentence));
@@ -32,18 +33,19 @@ TEST_CASE("view writes one frame without a display") {
   }
 }
 
-TEST_CASE("view without a display says so, and so does a console with --view") {
+TEST_CASE("without a display, view and a console with --view report that") {
   for (const std::string arguments : {"view worlds/barrett_mug.wld --root .", "repl --view"})
     refused(run(arguments, "", no_display), 1, "the viewer cannot open a window: ");
 }
 
-TEST_CASE("view without libglfw names the package") {
+TEST_CASE("without libglfw, view names the package") {
   const Folder folder;
   folder.file("libglfw.so.3", "no library");
-  refused(run("view", "", "env LD_LIBRARY_PATH=" + (folder / "")), 1, "install the package libglfw3");
+  refused(run("view", "", "env LD_LIBRARY_PATH=" + (folder / "")), 1,
+          "install the package libglfw3");
 }
 
-TEST_CASE("view refuses files, scripts and sizes in one sentence") {
+TEST_CASE("view rejects files, scripts and sizes in one sentence") {
   refused(run("view no_such.wld"), 1, "no such file: no_such.wld");
   refused(run("view README.md"), 1, "expected a model, a world");
   refused(run("view --size 4x4"), 2, "--size: expected 16 to 8192 pixels, got '4x4'");

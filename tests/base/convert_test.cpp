@@ -18,7 +18,7 @@ TEST_CASE("a number of any size becomes an integer within its bounds") {
   CHECK(floor_int(-1e10) == std::numeric_limits<int>::min());
 }
 
-TEST_CASE("the largest integers are reached and not passed") {
+TEST_CASE("the largest integers are reached and not exceeded") {
   using Limits = std::numeric_limits<int64_t>;
   CHECK(floor_between(0x1p63, Limits::min(), Limits::max()) == Limits::max());
   CHECK(floor_between(0x1p62, Limits::min(), Limits::max()) == int64_t{1} << 62);

@@ -8,7 +8,7 @@
 
 namespace clench {
 
-TEST_CASE("a place is written as far as it is known") {
+TEST_CASE("a place is written with its known parts") {
   CHECK(Place().text().empty());
   CHECK(Place("a.cfg").text() == "a.cfg");
   CHECK(Place("a.cfg", 31).text() == "a.cfg:31");
@@ -20,7 +20,7 @@ TEST_CASE("a place is written as far as it is known") {
   CHECK_FALSE(std::is_convertible_v<std::string, Place>);
 }
 
-TEST_CASE("a sink gets the parts of each diagnostic as values") {
+TEST_CASE("a sink receives the parts of each diagnostic as values") {
   std::vector<Diagnostic> list;
   const Diagnostics sink([&](const Diagnostic& d) { list.push_back(d); });
   sink.warn(Place("a.cfg", 3).of("mass"), "{} words are not used", 2);
@@ -42,7 +42,7 @@ TEST_CASE("a sink gets the parts of each diagnostic as values") {
   }
 }
 
-TEST_CASE("a sink without notes receives all the rest, and one without a receiver nothing") {
+TEST_CASE("a sink without notes receives all other diagnostics, and one without a receiver none") {
   int heard = 0;
   const Diagnostics sink([&](const Diagnostic&) { ++heard; });
   sink.without_notes().note(Place(), "a note");
@@ -53,14 +53,14 @@ TEST_CASE("a sink without notes receives all the rest, and one without a receive
   Diagnostics().warn(Place(), "nobody listens");
 }
 
-TEST_CASE("equal problems are one sentence, with how many more there are") {
+TEST_CASE("equal problems are reported in one sentence with their number") {
   Diagnostic one(Place("a.cfg", 3), "it is negative");
   CHECK(one.sentence() == "a.cfg:3: it is negative");
   one.count = 3;
   CHECK(one.sentence() == "a.cfg:3: it is negative (2 more alike)");
 }
 
-TEST_CASE("an error knows its place and keeps its kind") {
+TEST_CASE("an error contains its place and keeps its kind") {
   const PlacedError error(Place("a.cfg", 3), "no word");
   CHECK(std::string(error.what()) == "a.cfg:3: no word");
   CHECK(error.place() == Place("a.cfg", 3));

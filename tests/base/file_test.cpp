@@ -31,7 +31,7 @@ std::string fault_of(const std::function<void()>& run) {
   return "";
 }
 
-/// What is thrown while no file may grow beyond so many bytes, as on a disk that is nearly full.
+/// Message of the error thrown while no file may exceed a size, as on a nearly full disk.
 std::string fault_with_space(rlim_t bytes, const std::function<void()>& run) {
   rlimit before;
   getrlimit(RLIMIT_FSIZE, &before);
@@ -46,7 +46,7 @@ std::string fault_with_space(rlim_t bytes, const std::function<void()>& run) {
 
 }  // namespace
 
-TEST_CASE("a file is written whole, an older one is replaced, and nothing else is left") {
+TEST_CASE("a file is written completely, an older one is replaced, and no other file remains") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "a.txt";
   write_file(path, "one");
@@ -56,7 +56,7 @@ TEST_CASE("a file is written whole, an older one is replaced, and nothing else i
   CHECK(entries(folder.path()) == 1);
 }
 
-TEST_CASE("a link is followed, not replaced, also one to a file that is not there yet") {
+TEST_CASE("a link is followed, not replaced, also a link to a file that does not exist yet") {
   const TemporaryFolder folder;
   const fs::path file = folder.write("a.txt", "old"), link = folder.path() / "b.txt",
                  early = folder.path() / "c.txt", to = folder.path() / "d.txt";
@@ -70,7 +70,7 @@ TEST_CASE("a link is followed, not replaced, also one to a file that is not ther
   CHECK(read_bytes(to) == "first");
 }
 
-TEST_CASE("what cannot be written is told with its reason, and the old file stays") {
+TEST_CASE("a failed write reports its reason, and the old file is kept") {
   const TemporaryFolder folder;
   const std::string base = folder.path().generic_string();
   CHECK_THROWS_WITH_AS(
@@ -93,7 +93,7 @@ TEST_CASE("what cannot be written is told with its reason, and the old file stay
   CHECK(entries(folder.path()) == 1);
 }
 
-TEST_CASE("a link that lies in wait where a draft might be is not followed") {
+TEST_CASE("a planted link at the path of a draft is not followed") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "a.txt", victim = folder.write("victim", "mine");
   fs::create_symlink(victim, fmt::format("{}.{}.part", path.string(), getpid()));
@@ -104,21 +104,21 @@ TEST_CASE("a link that lies in wait where a draft might be is not followed") {
   CHECK(read_bytes(path) == "new");
 }
 
-TEST_CASE("a name as long as a folder takes is written") {
+TEST_CASE("a file name of the maximal length is written") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / fmt::format("{:a>235}.{:b>19}", "", "");
   write_file(path, "x");
   CHECK(read_bytes(path) == "x");
 }
 
-TEST_CASE("a full disk is told as such") {
-  // that special file takes nothing
+TEST_CASE("a full disk is reported as such") {
+  // that device accepts no data
   CHECK_THROWS_WITH_AS(write_file("/dev/full", "x"),
                        "/dev/full: expected a file to write, got a special file", Error);
   CHECK(system_reason(ENOSPC) == "No space left on device");
 }
 
-TEST_CASE("what permissions forbid is told as such") {
+TEST_CASE("a write without permission is reported as such") {
   const TemporaryFolder folder;
   const fs::path closed = folder.path() / "closed", shut = folder.write("closed/a.txt", "old"),
                  fixed = folder.path() / "fixed", old = folder.write("fixed/a.txt", "old"),
@@ -149,7 +149,7 @@ TEST_CASE("what permissions forbid is told as such") {
   CHECK(read_bytes(kept) == "old");
 }
 
-TEST_CASE("what is no regular file is neither read nor replaced") {
+TEST_CASE("a file that is not regular is neither read nor replaced") {
   const TemporaryFolder folder;
   const auto pipe = folder.path() / "pipe";
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
@@ -190,7 +190,7 @@ TEST_CASE("a text is appended on a separate line") {
                        "/dev/full: expected a file to write, got a special file", Error);
 }
 
-TEST_CASE("of a text that does not fit on the disk no part is appended") {
+TEST_CASE("no part of a text that does not fit on the disk is appended") {
   const TemporaryFolder folder;
   const fs::path path = folder.write("a.txt", "12\n");
   const std::string text(20000, 'x');
@@ -203,7 +203,7 @@ TEST_CASE("of a text that does not fit on the disk no part is appended") {
   CHECK(read_bytes(path) == "12\n" + text + "\n");
 }
 
-TEST_CASE("a check whether a file can be written changes nothing") {
+TEST_CASE("checking that a file can be written changes nothing") {
   const TemporaryFolder folder;
   const fs::path old = folder.write("old", "old"), empty = folder.write("empty", "");
   const std::string base = folder.path().generic_string();
@@ -231,13 +231,13 @@ TEST_CASE("a check whether a file can be written changes nothing") {
   CHECK(open == base + "/old: the file cannot be written: Permission denied");
 }
 
-TEST_CASE("a file keeps its permissions, and a new one has those of the user's mask") {
+TEST_CASE("a file keeps its permissions, and a new one follows the umask") {
   const TemporaryFolder folder;
   const auto secret = folder.write("secret", "old");
   fs::permissions(secret, fs::perms::owner_read | fs::perms::owner_write);
   write_file(secret, "new");
   CHECK(fs::status(secret).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
-  // what runs as its owner, whoever that is, was another text
+  // the set-user-ID bit is cleared, since the contents have changed
   fs::permissions(secret, fs::perms(04755));
   write_file(secret, "newer");
   CHECK(fs::status(secret).permissions() == fs::perms(0755));
@@ -247,7 +247,7 @@ TEST_CASE("a file keeps its permissions, and a new one has those of the user's m
   CHECK(fs::status(folder.path() / "new").permissions() == fs::perms(0640));
 }
 
-TEST_CASE("a draft stands beside its file under a name of its own, and is gone at the end") {
+TEST_CASE("a draft has a unique name next to its file, and is removed at the end") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "w.wld";
   {
@@ -262,7 +262,7 @@ TEST_CASE("a draft stands beside its file under a name of its own, and is gone a
   CHECK(entries(folder.path()) == 0);
 }
 
-TEST_CASE("of files that belong together none stays when one cannot be written") {
+TEST_CASE("if one of several files that belong together cannot be written, none is kept") {
   const TemporaryFolder folder;
   const fs::path old = folder.write("old", "old"), same = folder.write("same", "same");
   fs::permissions(old, fs::perms::owner_read | fs::perms::owner_write);

@@ -11,14 +11,14 @@ static uint64_t hash_of(T... values) {
   return h.value();
 }
 
-TEST_CASE("equal contents give equal hashes, and order counts") {
+TEST_CASE("equal contents give equal hashes, and order matters") {
   CHECK(hash_of(1.0, 2.0) == hash_of(1.0, 2.0));
   CHECK(hash_of(1.0, 2.0) != hash_of(2.0, 1.0));
   CHECK(hash_of(0.0) != hash_of(-0.0));
   CHECK(hash_of() != hash_of(0.0));
 }
 
-TEST_CASE("where a text ends counts") {
+TEST_CASE("the boundaries of texts matter") {
   CHECK(hash_of(std::string_view("ab"), std::string_view("c")) !=
         hash_of(std::string_view("a"), std::string_view("bc")));
   CHECK(hash_of(std::string_view("")) != hash_of());

@@ -20,7 +20,7 @@ struct Record : Watcher {
 
 }  // namespace
 
-TEST_CASE("what is told reaches the watcher") {
+TEST_CASE("reported progress reaches the watcher") {
   const auto watcher = std::make_shared<Record>();
   const Progress progress(watcher);
   progress.tell(0.25, "first");
@@ -29,7 +29,8 @@ TEST_CASE("what is told reaches the watcher") {
   CHECK(watcher->last == "not known");
 }
 
-TEST_CASE("a stop is thrown until it is taken, and nobody stops what nobody watches") {
+TEST_CASE(
+    "a requested stop is thrown until it is taken, and progress without a watcher never stops") {
   const auto watcher = std::make_shared<Record>();
   const Progress progress(watcher);
   progress.check();

@@ -4,7 +4,7 @@
 
 using namespace clench;
 
-TEST_CASE("the same seed and item give the same numbers, others give others") {
+TEST_CASE("the same seed and item give the same numbers, and other seeds or items give others") {
   Random a(1, 2), b(1, 2), c(1, 3), d(2, 2);
   std::set<uint64_t> firsts;
   for (int i = 0; i < 100; ++i) CHECK(a.bits() == b.bits());
@@ -23,7 +23,7 @@ TEST_CASE("uniform numbers fill their range evenly") {
     REQUIRE(x < 1);
     ++bins[static_cast<int>((x + 1) * 5)];
   }
-  // a bin holds 10000 with a deviation of 95; five of these
+  // a bin holds 10000 with a standard deviation of 95; five of these
   for (const int count : bins) CHECK(std::abs(count - n / 10) < 5 * 95);
 }
 

@@ -2,7 +2,7 @@
 
 using namespace clench;
 
-TEST_CASE("edits count inserts, drops, exchanges and swaps of neighbors") {
+TEST_CASE("edits count inserted, deleted, replaced and swapped letters") {
   CHECK(edit_distance("flask", "flask") == 0);
   CHECK(edit_distance("flsk", "flask") == 1);
   CHECK(edit_distance("flaask", "flask") == 1);
@@ -13,7 +13,7 @@ TEST_CASE("edits count inserts, drops, exchanges and swaps of neighbors") {
   CHECK(edit_distance("abc", "") == 3);
 }
 
-TEST_CASE("the number of edits is a distance") {
+TEST_CASE("the number of edits is a metric") {
   const std::vector<std::string> words = {"", "a", "mug", "mugs", "gum", "glass", "flask"};
   for (const auto& a : words)
     for (const auto& b : words) {
@@ -22,7 +22,7 @@ TEST_CASE("the number of edits is a distance") {
     }
 }
 
-TEST_CASE("a name longer than anyone types gets no suggestion, at once") {
+TEST_CASE("a very long name gets no suggestion, without delay") {
   const std::string name(10'000'000, 'a');
   CHECK(did_you_mean(name, {name + "b", "flask"}).empty());
   CHECK(did_you_mean("flask.iv", {name}).empty());
@@ -38,7 +38,7 @@ TEST_CASE("only a near name is suggested") {
   CHECK(did_you_mean("zero", {"zero", "hero"}) == "; did you mean 'hero'?");
 }
 
-TEST_CASE("words of other simulators lead to ours, where that is known") {
+TEST_CASE("words of other simulators lead to suggestions of Clench's words") {
   CHECK(did_you_mean("qpos", {"name", "dofs"}) == "; did you mean 'dofs'?");
   CHECK(did_you_mean("step", {"time_step", "run"}) == "; did you mean 'run'?");
   CHECK(did_you_mean("step", {"steps", "duration"}) == "; did you mean 'steps'?");

@@ -9,7 +9,7 @@
 
 using namespace clench;
 
-TEST_CASE("a number is decimal, finite and alone") {
+TEST_CASE("a number is decimal, finite and has no other text around it") {
   CHECK(parse_number("5.0e+9") == 5e9);
   CHECK(parse_number("+0.25") == 0.25);
   CHECK(parse_number("-.5") == -0.5);
@@ -20,7 +20,7 @@ TEST_CASE("a number is decimal, finite and alone") {
     CHECK_MESSAGE(!parse_number(bad), bad);
 }
 
-TEST_CASE("a whole number has no point and fits an int") {
+TEST_CASE("an integer has no decimal point and fits an int") {
   CHECK(parse_integer("42") == 42);
   CHECK(parse_integer("+0") == 0);
   CHECK(parse_integer("-7") == -7);
@@ -28,7 +28,7 @@ TEST_CASE("a whole number has no point and fits an int") {
     CHECK_MESSAGE(!parse_integer(bad), bad);
 }
 
-TEST_CASE("words lie between white space and separators") {
+TEST_CASE("words are separated by white space and separators") {
   CHECK(split_words(" a\tb  c ") == std::vector<std::string_view>{"a", "b", "c"});
   CHECK(split_words("(1 2)[3,4]", "()[],") == std::vector<std::string_view>{"1", "2", "3", "4"});
   CHECK(split_words(" \t").empty());
@@ -43,7 +43,7 @@ TEST_CASE("a word in a message is short and printable") {
   CHECK(in_quotes(std::string(1000, 'x')) == "'" + std::string(max_excerpt, 'x') + "...'");
 }
 
-TEST_CASE("a reader walks over blank lines and comments and knows where it stands") {
+TEST_CASE("a reader skips blank lines and comments and keeps track of its place") {
   LineReader lines("a.cfg", "# head\n\n  one two # three\n\t\nlast");
   const Line line = lines.next_full("a line");
   CHECK(line.place().text() == "a.cfg:3");
@@ -58,14 +58,14 @@ TEST_CASE("a reader walks over blank lines and comments and knows where it stand
                        Error);
 }
 
-TEST_CASE("an empty text has no lines, and its place is the first") {
+TEST_CASE("an empty text has no lines, and its place is the first line") {
   LineReader lines("a.cfg", "");
   CHECK(lines.done());
   CHECK(lines.peek().place().text() == "a.cfg:1");
   CHECK(lines.next().blank());
 }
 
-TEST_CASE("a wrong number is told with place, subject, expected and got") {
+TEST_CASE("a wrong number is reported with place, subject, expected and got") {
   LineReader lines("a.cfg", "x 3 2.5");
   const Line line = lines.next();
   CHECK(line.number(1, "a") == 3);
@@ -85,7 +85,7 @@ TEST_CASE("a wrong number is told with place, subject, expected and got") {
                        Error);
 }
 
-TEST_CASE("a whole number too large for its place is told with the range") {
+TEST_CASE("an integer out of range is reported with the range") {
   constexpr int most = std::numeric_limits<int>::max(), least = std::numeric_limits<int>::min();
   CHECK(integer_fault("3000000000", least, most) ==
         "expected a whole number from -2147483648 to 2147483647, got '3000000000'");
@@ -102,7 +102,7 @@ TEST_CASE("a whole number too large for its place is told with the range") {
     CHECK_MESSAGE(integer_fault(good, least, most).empty(), good);
 }
 
-TEST_CASE("the mark that some editors put before UTF-8 goes, at the beginning alone") {
+TEST_CASE("a byte order mark is skipped, at the beginning of a text only") {
   CHECK(plain_text("\xEF\xBB\xBF"
                    "a\r\n") == "a\n");
   CHECK(plain_text("a\xEF\xBB\xBF") == "a\xEF\xBB\xBF");
@@ -119,7 +119,7 @@ TEST_CASE("every kind of line end reads as one") {
   CHECK_THROWS_WITH_AS(read_text("/"), "/: expected a file, got a folder", Error);
 }
 
-TEST_CASE("a list in a message ends after 300 characters and says how many are left") {
+TEST_CASE("a list in a message ends after 300 characters with the number of omitted entries") {
   CHECK(clench::name_list(std::vector<std::string>{}) == "");
   CHECK(clench::name_list(std::vector<std::string>{"a", "b"}) == "a, b");
   CHECK(clench::name_list(std::vector<int>{3, 40}) == "3, 40");
@@ -129,12 +129,12 @@ TEST_CASE("a list in a message ends after 300 characters and says how many are l
   CHECK(clench::name_list(std::vector<std::string>(3, std::string(10000, 'x'))).size() < 400);
 }
 
-TEST_CASE("an error is whole though its text has zero bytes") {
+TEST_CASE("the message of an error is complete although its text has zero bytes") {
   CHECK(std::string(clench::Error(std::string("a\0b", 3) + " is no name").what()) ==
         "a\\0b is no name");
 }
 
-TEST_CASE("a line of millions of words takes no memory for them, and gives each") {
+TEST_CASE("a line of millions of words is read without memory for the words") {
   const auto taken = [] {
     const auto info = mallinfo2();
     return info.uordblks + info.hblkhd;
@@ -155,7 +155,7 @@ TEST_CASE("a line of millions of words takes no memory for them, and gives each"
   CHECK(split_words(text, "", 3).size() == 3);
 }
 
-TEST_CASE("lines without a mark are stepped over, and the others keep their numbers") {
+TEST_CASE("lines without a mark are skipped, and the others keep their numbers") {
   Random random(3);
   for (int n = 0; n < 300; ++n) {
     std::string text;
@@ -181,7 +181,7 @@ TEST_CASE("lines without a mark are stepped over, and the others keep their numb
   }
 }
 
-TEST_CASE("line ends of every kind become line feeds, as if by one character after another") {
+TEST_CASE("every kind of line end becomes a line feed, as in a character-wise reference") {
   Random random(4);
   for (int n = 0; n < 500; ++n) {
     std::string raw;
@@ -197,11 +197,13 @@ TEST_CASE("line ends of every kind become line feeds, as if by one character aft
   }
 }
 
-TEST_CASE("UTF-8 is read letter by letter, and each byte that is none is one mark") {
+TEST_CASE(
+    "UTF-8 is decoded letter by letter, and each invalid byte becomes one replacement character") {
   CHECK(letters_of("Größe µ") == U"Größe µ");
   CHECK(letters_of("a\xE2\x82\xAC\xF0\x9F\x98\x80z") == U"a€\U0001F600z");
   const char32_t none = 0xFFFD;
-  // a lone byte, a letter cut short, a letter too long for what it says, half of a pair, too large
+  // a lone byte, a truncated letter, an overlong encoding, half of a surrogate pair, a code point
+  // out of range
   CHECK(letters_of("\xFFx") == std::u32string{none, U'x'});
   CHECK(letters_of("\xE2\x82") == std::u32string{none, none});
   CHECK(letters_of("\xC0\xAF") == std::u32string{none, none});
@@ -213,6 +215,6 @@ TEST_CASE("UTF-8 is read letter by letter, and each byte that is none is one mar
     CHECK(text_of(letters_of(text)) == text);
 }
 
-TEST_CASE("a byte that is no UTF-8 may stand for a letter of Latin-1") {
+TEST_CASE("a byte that is not UTF-8 may be read as a letter of Latin-1") {
   CHECK(letters_of("\xe9x\xe2\x82", true) == U"\u00e9x\u00e2\u0082");
 }

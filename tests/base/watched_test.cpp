@@ -42,7 +42,7 @@ TEST_CASE("a stop request ends work of a watched thread") {
   CHECK_FALSE(stops());
 }
 
-TEST_CASE("the innermost one counts, and an empty one protects what it encloses") {
+TEST_CASE("the innermost watch counts, and an empty one protects its scope") {
   const auto watcher = std::make_shared<Silent>();
   watcher->stop();
   const Watched watched{Progress(watcher)};
@@ -55,7 +55,7 @@ TEST_CASE("the innermost one counts, and an empty one protects what it encloses"
   CHECK(watched.checks() == 1);
 }
 
-TEST_CASE("a check of a given number stops, once") {
+TEST_CASE("stop_at stops the check of the given number, once") {
   Watched watched{Progress()};
   watched.stop_at(3);
   CHECK_FALSE(stops());
@@ -64,7 +64,7 @@ TEST_CASE("a check of a given number stops, once") {
   CHECK_FALSE(stops());
 }
 
-TEST_CASE("of short rounds every tenth one checks") {
+TEST_CASE("a stop check of short rounds tests every tenth round") {
   const Watched watched{Progress()};
   StopCheck check(10);
   for (int i = 0; i < 95; ++i) check();

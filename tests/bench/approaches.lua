@@ -1,10 +1,10 @@
 -- Counts random approaches of a hand that end in force closure: clench run tests/bench/approaches.lua HAND TRIALS [OBJECT | DOF=VALUE | search]...
 --
--- An object in a random orientation stands with its center of mass on the hand's line of approach; the opened hand comes along that line
--- until it touches, and closes. Objects are of wood unless their files say otherwise; without any, they are a cube, a ball and a can, 6 cm wide. DOFs
--- with a value stand there from the first on. With `search` the same trials are made along lines beside the hand's own and leaning from it, too:
--- on which most succeed, and how many objects at least one of them grasps as they stand. The best of them and the hand's own are then tried on four
--- times as many other trials, as those that were best of so many were lucky, too.
+-- An object in a random orientation has its center of mass on the hand's line of approach; the opened hand moves along that line until it touches,
+-- and closes. Objects are of wood unless their files name a material; without any, they are a cube, a ball and a can, 6 cm wide. Given DOFs have
+-- their value from the start. With `search`, the same trials are repeated along lines that are displaced from the hand's own line or inclined to it.
+-- The output ranks the lines by successes, and counts the objects that at least one line grasps in their orientation. The best lines and the hand's
+-- own are then tested on four times as many new trials, because the best of many lines also had favorable trials.
 local clench = require "clench"
 local path, trials = arg[1], tonumber(arg[2] or 90)
 clench.log.level "error"
@@ -30,7 +30,7 @@ if next(posture) then hand:set_dofs(posture) end
 local start = world:snapshot()
 local own = hand.pose:inverse() * hand.approach.frame
 
--- which of the trials succeed along the z axis of a frame in the base, and how many
+-- success of each trial along the z axis of a frame in the base, and the number of successes
 local function try(frame, seed, trials)
   local random, held, total = clench.random(seed), {}, 0
   for trial = 1, trials do

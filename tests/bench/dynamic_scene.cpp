@@ -120,7 +120,7 @@ DynamicScene critical_grip(double share, double gap) {
   return scene;
 }
 
-// turned about z: rings of (radius, height) from below, between two ends on the axis
+// turned about z: rings of (radius, height) from below, between two end points on the axis
 static Mesh lathe(const std::vector<std::pair<double, double>>& rings) {
   constexpr int segments = 72;
   Mesh mesh;

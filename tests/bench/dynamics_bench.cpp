@@ -1,6 +1,6 @@
-// Steps a CPU second and accuracy together: our dynamics beside ODE and Bullet on scenes of
-// primitives, block by block in one process; grips that are hard to hold; a hand on an arm that
-// holds a glass.
+// Steps per CPU second together with accuracy: Clench's dynamics compared with ODE and Bullet on
+// scenes of primitives, in alternating blocks of one process; grips that are hard to hold; a hand
+// on an arm that holds a glass.
 //   bench_dynamics [--brief] [--csv FILE] [--check]
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double h = 1e-3;
 
-/// [us] of this thread
+/// processor time of this thread [us]
 double cpu() { return 1e6 * cpu_seconds(); }
 
 double middle(std::vector<double> values) {
@@ -33,13 +33,14 @@ double middle(std::vector<double> values) {
   return *m;
 }
 
-/// What an engine made of a scene.
+/// Results of an engine on a scene.
 struct Outcome {
   std::string engine;
   std::unique_ptr<DynamicEngine> run;
-  std::vector<Pose> begin, middle;        ///< by part, when the measured steps began, and half way
-  std::vector<Eigen::Vector3d> velocity;  ///< when they began
-  std::vector<double> times;              ///< of a step, by block [us]
+  /// by part, at the start and in the middle of the measured steps
+  std::vector<Pose> begin, middle;
+  std::vector<Eigen::Vector3d> velocity;  ///< at the start of the measured steps
+  std::vector<double> times;              ///< per step, by block [us]
 };
 
 struct Length {
@@ -76,7 +77,7 @@ std::vector<Outcome> race(const std::vector<EngineKind>& engines, Make&& make,
   return out;
 }
 
-/// time of an engine over ours, block by block; NaN when it did not run
+/// time of an engine divided by Clench's, block by block; NaN if the engine did not run
 double ratio(const std::vector<Outcome>& all, const std::string& engine) {
   std::vector<double> ratios;
   for (const Outcome& o : all)
@@ -85,9 +86,9 @@ double ratio(const std::vector<Outcome>& all, const std::string& engine) {
   return middle(ratios);
 }
 
-/// Figures of engines that are not here, in steps of 1 ms a CPU second of a Zen 3 server: MuJoCo
-/// 3.3.8 with elliptic cones, and the original (GraspIt!) on a box on a slope. They stand beside
-/// ours for orientation: another machine, scenes alike.
+/// Published figures of engines that are not run here, in steps of 1 ms per CPU second of a Zen 3
+/// server: MuJoCo 3.3.8 with elliptic cones, and the original (GraspIt!) on a box on a slope. They
+/// are listed for orientation only: another machine, similar scenes.
 struct Elsewhere {
   const char *engine, *scene;
   double rate;
@@ -97,7 +98,7 @@ constexpr Elsewhere elsewhere[] = {{"MuJoCo (elsewhere)", "stack of ten", 18500}
                                    {"MuJoCo (elsewhere)", "slope slides", 300000},
                                    {"original (elsewhere)", "slope slides", 1400}};
 
-/// A table that prints as it grows: rates, and what a scene asks about accuracy.
+/// A table that is printed row by row: rates, and the accuracy measures of a scene.
 class Table {
  public:
   explicit Table(Report& report) : report_(report) {}
@@ -132,7 +133,7 @@ class Table {
   std::map<std::string, std::pair<std::string, std::string>> names_;
 };
 
-// an aim takes no 0
+// aims require values above 0
 double seen(double value) { return std::max(value, 1e-18); }
 
 void measure_stack(const std::vector<EngineKind>& peers, bool brief, Table& table,
@@ -158,7 +159,7 @@ void measure_stack(const std::vector<EngineKind>& peers, bool brief, Table& tabl
     table.add("penetration [m]", "stack of ten", o.engine, std::max(deep, 0.0));
     if (&o != &all[0]) continue;
     aims.push_back({"stack of ten, drift [m/s]", seen(drift), 1e-6, true});
-    // it rests above
+    // a negative overlap is a gap
     aims.push_back({"stack of ten, penetration [m]", seen(deep), 1e-4, true});
     aims.push_back(
         {"stack of ten, growth of penetration [m/s]", seen(deep - deep_before), 1e-7, true});
@@ -166,7 +167,7 @@ void measure_stack(const std::vector<EngineKind>& peers, bool brief, Table& tabl
   aims.push_back({"stack of ten, ODE quick step / ours", ratio(all, "ODE quick step"), 2.5});
 }
 
-// While they fall and tumble: what rests costs next to nothing.
+// Measured while the boxes fall and tumble: bodies at rest cost next to nothing.
 void measure_bin(const std::vector<EngineKind>& peers, bool brief, Table& table) {
   const Length length = brief ? Length{0, 20, 10} : Length{0, 1200, 50};
   const auto all = race(peers, boxes_in_a_bin, length);
@@ -263,7 +264,7 @@ void measure_slope(const std::vector<EngineKind>& peers, bool brief, Table& tabl
                     ratio(*all, "ODE quick step, meshes"), 3});
   }
   if (brief) return;
-  // the same acceleration, whatever the step
+  // the same acceleration for any time step
   const EngineKind ours = our_engine();
   double worst = 0;
   for (const double step : {5e-4, 2e-3, 5e-3}) {
@@ -278,7 +279,7 @@ void measure_slope(const std::vector<EngineKind>& peers, bool brief, Table& tabl
   aims.push_back({"slope slides, steps of 0.5 to 5 ms, off by [m/s2]", seen(worst), 1e-9, true});
 }
 
-/// how fast the watched part sinks after it has settled [m/s]
+/// mean velocity at which the watched part sinks after it has settled [m/s]
 double sinking(const EngineKind& kind, const DynamicScene& scene, double step, double seconds) {
   const auto run = kind.make(scene, step);
   run->step(static_cast<int>(std::lround(0.5 / step)));
@@ -318,7 +319,7 @@ void measure_grips(const std::vector<EngineKind>& engines, bool brief, Table& ta
         {"critical friction, friction against weight off by", seen(unbalanced), 1e-6, true});
     aims.push_back({"critical friction, jitter of a pad's force", seen(jitter), 1e-6, true});
     report.check(held < 1e-6, "critical friction: it is held at 1.01 of its weight");
-    // after 0.5 s it falls at more than half of what the book says
+    // after 0.5 s its mean velocity exceeds half of the theoretical value
     report.check(fallen > 0.5 * 0.01 * gravity * 0.5,
                  "critical friction: it falls at 0.99 of its weight");
   }

@@ -1,5 +1,5 @@
-// Bullet as its examples use it: sequential impulses on rigid bodies, ten iterations, its own
-// shapes. Collision margins lie inside them.
+// Bullet, set up like its examples: sequential impulses on rigid bodies, ten iterations, its own
+// shapes, with collision margins inside them.
 #include <btBulletDynamicsCommon.h>
 
 #include "bench/dynamic_engine.h"
@@ -69,7 +69,7 @@ class Bullet : public DynamicEngine {
     if (part.mass > 0) shape.calculateLocalInertia(btScalar(part.mass), inertia);
     btRigidBody::btRigidBodyConstructionInfo info(btScalar(part.mass), nullptr, &shape, inertia);
     info.m_startWorldTransform = to_bullet(part.X_W);
-    // of two bodies the product counts
+    // Bullet multiplies the coefficients of the two bodies
     info.m_friction = btScalar(std::sqrt(scene_.mu));
     bodies_.push_back(std::make_unique<btRigidBody>(info));
     bodies_.back()->setActivationState(DISABLE_DEACTIVATION);
@@ -80,7 +80,7 @@ class Bullet : public DynamicEngine {
     btRigidBody& child = *bodies_[link.part];
     btRigidBody& parent =
         link.parent < 0 ? btTypedConstraint::getFixedBody() : *bodies_[link.parent];
-    // z of a hinge's frame is its axis, x of a slider's
+    // the axis is z of a hinge's frame and x of a slider's
     const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(
         link.slides ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ(), link.axis);
     const Pose frame{turn, link.origin};
@@ -101,7 +101,7 @@ class Bullet : public DynamicEngine {
     world_.addConstraint(joints_.back().get(), true);
   }
 
-  // forces of sliders; springs of hinges as motors whose largest impulse is what the spring gives
+  // forces of sliders; springs of hinges as motors whose maximal impulse is that of the spring
   void push(const Link& link, size_t number) {
     if (link.slides) {
       btRigidBody& body = *bodies_[link.part];

@@ -1,5 +1,5 @@
-// ODE as its manual uses it: its own shapes, collision of all pairs that its hash space finds,
-// contact joints made anew in every step.
+// ODE, used as in its manual: its own shapes, collision of all pairs from its hash space, and
+// contact joints that are created in every step.
 #include <ode/ode.h>
 
 #include <deque>
@@ -111,7 +111,7 @@ class Ode : public DynamicEngine {
       const dJointID joint = dJointCreateSlider(world_, nullptr);
       dJointAttach(joint, child, parent);
       dJointSetSliderAxis(joint, link.axis.x(), link.axis.y(), link.axis.z());
-      // a motor at rest that gives way: a damper
+      // a compliant motor at rest acts as a damper
       dJointSetSliderParam(joint, dParamVel, 0);
       dJointSetSliderParam(joint, dParamFMax, dInfinity);
       dJointSetSliderParam(joint, dParamCFM, 1 / link.viscous);
@@ -122,7 +122,7 @@ class Ode : public DynamicEngine {
     dJointAttach(joint, child, parent);
     dJointSetHingeAnchor(joint, link.origin.x(), link.origin.y(), link.origin.z());
     dJointSetHingeAxis(joint, link.axis.x(), link.axis.y(), link.axis.z());
-    // a stop at the target that gives way: a spring and a damper (section 3.8.2 of its manual)
+    // a compliant stop at the target acts as a spring and a damper (section 3.8.2 of ODE's manual)
     dJointSetHingeParam(joint, dParamLoStop, link.target);
     dJointSetHingeParam(joint, dParamHiStop, link.target);
     dJointSetHingeParam(joint, dParamStopERP, h_ * link.kp / (h_ * link.kp + link.kd));

@@ -1,5 +1,5 @@
-// Our engine: fixed parts are obstacles, those on links a robot on a base without geometry, the
-// others objects.
+// Clench's engine: fixed parts are obstacles, parts on links form a robot with a base without
+// geometry, and all others are objects.
 #include <algorithm>
 
 #include "bench/dynamic_engine.h"
@@ -104,7 +104,7 @@ GripForces our_grip(const DynamicScene& scene, double h, double seconds) {
   std::vector<Eigen::Vector3d> before;
   for (double t = 0; t < seconds; t += h) {
     engine.step(1);
-    // by pad
+    // one force per pad
     std::vector<Eigen::Vector3d> forces;
     out.tangential = 0;
     for (const Manifold& m : engine.world().dynamics()->manifolds) {

@@ -1,7 +1,7 @@
-// From a world's file to a measured grasp, step by step. On the DLR hand and flask of the original
-// where ../shared is present, and on our own.
+// From the file of a world to an evaluated grasp, step by step. Uses the DLR hand and flask of the
+// original if ../shared is present, and otherwise the shipped models.
 // The original took, on the machine of ../shared/reference: 96 ms to load, 23 ms to close, 26 ms
-// for the space.
+// for the wrench space.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ void measure(benchmark::State& state, const Scene& scene) {
   state.counters["epsilon"] = wrench_space(grasp).epsilon();
 }
 
-// the patches of all contacts of a rubber object, each site once
+// the patches of all contacts of a rubber object, computed once per site
 void fit_patches(benchmark::State& state, const Scene& scene) {
   World world = load(scene);
   const auto hand = world.robots()[0];

@@ -1,5 +1,6 @@
-// Our geometry queries beside those of other libraries: the same poses in one process, question by
-// question in turn, every answer compared. Prints medians and ratios, writes them as CSV.
+// Geometry queries of Clench compared with other libraries: the same poses in one process,
+// alternating query by query, with all answers compared. Prints medians and ratios, and writes them
+// as CSV.
 //   bench_geometry [--poses N] [--csv FILE] [--check]
 #include <fmt/format.h>
 
@@ -29,7 +30,8 @@ std::vector<Aim> aims(const Report& r) {
       {"distance near, FCL / ours", r.ratio("distance near", "FCL"), 10},
       {"distance touching, FCL / ours", r.ratio("distance touching", "FCL"), 12},
       {"distance near, cold / seeded", r.ratio("distance near", "ours", "seeded distance near"), 2},
-      // no peer finds them; 1.6 times our own collision query would punish a faster one
+      // no other library has this query; a limit relative to Clench's own collision query (1.6)
+      // would penalize a faster collision query
       {"pairs within 0.1 mm touching, FCL's collide / ours",
        r.ratio("collide touching", "FCL", "pairs within 0.1 mm touching"), 7},
       {"closest point, Embree / ours", r.ratio("closest point", "Embree"), 2.5},
@@ -63,7 +65,7 @@ int main(int argc, char** argv) {
     measure_points(pair.name, *pair.a, 5 * options.poses, report);
     measure_building(pair.name, *pair.a, report);
   }
-  // a run on few poses is to see that all works
+  // a run with few poses only checks that everything works
   const bool brief = options.poses < 50;
   measure_worlds(brief ? 100 : 10000, report);
   measure_large_mesh(brief ? 10000 : 1000000, report);

@@ -11,7 +11,8 @@ namespace clench::bench {
 
 namespace {
 
-// Largest penetration depth of two parts [m], by their triangles: the same measure for all engines.
+// Largest penetration depth of two parts [m], from their triangles: the same measure for all
+// engines.
 double max_depth(const DynamicEngine& engine, const DynamicScene& scene) {
   const int count = static_cast<int>(scene.parts.size());
   std::vector<std::shared_ptr<const Shape>> shapes;

@@ -1,6 +1,6 @@
 // Shakes and lifts verified grasps in MuJoCo.
 //   bench_mujoco [--each] [--brief] [--limit COUNT] FILE...
-//   FILE  as tests/bench/verdicts.lua and tables.lua write it
+//   FILE  as written by tests/bench/verdicts.lua and tables.lua
 #include <cstdio>
 #include <iostream>
 

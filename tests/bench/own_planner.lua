@@ -1,7 +1,7 @@
--- A planner of a user's own beside the built-in annealer, by turns in one run: examples/13_own_planner.lua, whose energy is built
--- from terms of the engine, and clench.plan.anneal with the same energy, budget and list of the best.
+-- A user-defined planner compared with the built-in annealer, alternating in one run: examples/13_own_planner.lua, whose energy is composed of terms
+-- of the engine, and clench.plan.anneal with the same energy, budget and list of best grasps.
 --   clench run tests/bench/own_planner.lua [--check] [--csv FILE]
--- Aim: at least 0.8 of the built-in one's steps a second.
+-- Aim: at least 0.8 of the built-in annealer's steps per second.
 local clench = require "clench"
 local aim, rounds, steps = 0.8, 5, 5000
 
@@ -16,7 +16,7 @@ do
   end
 end
 
--- steps a second of each chain, as the example prints them
+-- steps per second of each chain, as printed by the example
 local function own_rates(seed)
   local rates, path = {}, nil
   local function heard(line)

@@ -12,7 +12,7 @@ namespace clench::bench {
 
 namespace {
 
-// the slow and obvious answers: all pairs of triangles whose boxes leave it open
+// brute-force reference: all pairs of triangles whose boxes are close enough
 struct Brute {
   double distance = std::numeric_limits<double>::infinity();
   std::vector<std::pair<int, int>> within;
@@ -45,11 +45,11 @@ Brute brute(const Shape& a, const Shape& b, const Pose& X, double threshold) {
 }
 
 constexpr double contact_threshold = 1e-4;
-// every so many poses all pairs of triangles are measured
+// all pairs of triangles are measured at every `compared`-th pose
 constexpr int compared = 50;
 
-// Depth of the deepest point of a lattice that lies in both, step or more apart: at most the depth of
-// the overlap.
+// Depth of the deepest lattice point inside both bodies, with a spacing of `step` or more: a lower
+// bound of the depth of the overlap.
 double lattice_depth(const Shape& a, const Shape& b, const Pose& X, double step) {
   constexpr double max_points = 1e5;
   const Bounds box_b = b.bounds_at(X);
@@ -69,7 +69,7 @@ double lattice_depth(const Shape& a, const Shape& b, const Pose& X, double step)
   return deepest;
 }
 
-// steps of a fraction of a millimeter, and a turn with them
+// steps of a fraction of a millimeter, with a rotation
 Pose step_from(const Pose& X, int step) {
   const double t = step;
   Pose next = X;
@@ -116,7 +116,7 @@ class PairBench {
         const auto answer = timed(time, [&] { return other->collide(poses_[i]); });
         if (!answer) break;
         collide_[name].push_back(time[0]);
-        // only FCL is an oracle
+        // FCL is the only oracle; other libraries are counted
         if (name == "FCL")
           report_.check(*answer == hits_[i], where(i, name, "collide"));
         else
@@ -141,7 +141,7 @@ class PairBench {
                         where(i, name, "distance"));
       }
   }
-  // a few small steps from each pose, with a cache: the answers must be those without one
+  // a few small steps from each pose, with a cache: the answers must equal those without a cache
   void follow(int begin, int end) {
     constexpr int steps = 6;
     for (int i = begin; i < end; ++i) {
@@ -165,7 +165,7 @@ class PairBench {
       if (i % compared == 0) near_[i] = std::move(near);
     }
   }
-  // One pose of a block: ours finds the depth to 0.1 %, the lattice to a tenth.
+  // The first pose of a block: Clench computes the depth to 0.1 %, the lattice to a tenth.
   void sink(int begin, int end) {
     if (!a_.closed() || !b_.closed() || begin == end || !hits_[begin]) return;
     const auto found = timed(depths_["ours"], [&] { return penetration(a_, b_, poses_[begin]); });

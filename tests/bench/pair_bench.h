@@ -1,4 +1,5 @@
-// Collision, distance and near pairs of two meshes, ours and the others', in every situation.
+// Collision, distance and close pairs of two meshes, in Clench and other libraries, in every
+// situation.
 #pragma once
 #include "bench/pose_sets.h"
 #include "bench/report.h"

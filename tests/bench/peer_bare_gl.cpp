@@ -107,7 +107,7 @@ BareGl::BareGl(const Scene& scene, const Eigen::Matrix4d& to_clip, int width, in
   gl.leave();
 }
 
-// what is in the context goes with it
+// destroying the context releases its objects
 BareGl::~BareGl() { eglDestroyContext(gl_->display, gl_->context); }
 
 int BareGl::draw() {

@@ -1,4 +1,5 @@
-// A scene's triangles drawn once by OpenGL and nothing else: what a picture costs at least.
+// A scene's triangles drawn once by OpenGL and nothing else: a lower bound of the cost of a
+// picture.
 #pragma once
 #include <memory>
 
@@ -6,15 +7,15 @@
 
 namespace clench::bench {
 
-/// Context, program and buffers are made once; without light, shadow or smooth edges.
+/// Creates context, program and buffers once; draws without light, shadow or smooth edges.
 class BareGl {
  public:
-  /// `to_clip`: of the world.
+  /// to_clip  transform from the world to clip space
   BareGl(const Scene& scene, const Eigen::Matrix4d& to_clip, int width, int height);
   ~BareGl();
-  /// Draws and reads the pixels back.   returns  how many show a triangle
+  /// Draws and reads the pixels back.   returns  number of pixels that show a triangle
   int draw();
-  /// Draws without reading back, and waits until it is drawn.
+  /// Draws without reading back, and waits until the frame is complete.
   void draw_frame(const Eigen::Matrix4d& to_clip);
 
  private:

@@ -1,5 +1,4 @@
-// CGAL: its tree of axis-aligned boxes, in double precision, with the search for near points
-// switched on.
+// CGAL: its tree of axis-aligned boxes, in double precision, with acceleration of distance queries.
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>

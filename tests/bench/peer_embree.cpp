@@ -1,5 +1,5 @@
-// Embree: point queries over its tree of axis-aligned boxes, with our exact test at the leaves, as
-// its manual shows it; rays by its own test in single precision.
+// Embree: point queries with its tree of axis-aligned boxes and Clench's exact test at the leaves,
+// as in its manual; rays with its own test in single precision.
 #include <embree3/rtcore.h>
 
 #include <limits>

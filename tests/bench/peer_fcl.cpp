@@ -1,4 +1,4 @@
-// FCL: trees of OBBRSS volumes, its fastest exact ones for meshes.
+// FCL: trees of OBBRSS volumes, its fastest exact method for meshes.
 #include <fcl/fcl.h>
 
 #include "bench/peers.h"

@@ -1,4 +1,4 @@
-// qhull as a peer, with options of one's choice.
+// qhull as a reference, with selectable options.
 #pragma once
 #include <Eigen/Core>
 #include <optional>
@@ -7,13 +7,14 @@
 namespace clench::bench {
 
 struct QhullAnswer {
-  double min_offset = 0;  ///< of all facets from the origin; above 0: inside
-  double volume = 0;      ///< with option FA
+  /// smallest distance of facets from the origin; above 0 if the origin is inside
+  double min_offset = 0;
+  double volume = 0;  ///< computed with option FA
 };
 
-/// points   a column each
+/// points   one per column
 /// options  "qhull Qx"
-/// returns  nothing when it refuses
+/// returns  empty if qhull reports an error
 std::optional<QhullAnswer> ask_qhull(const Eigen::MatrixXd& points, const std::string& options);
 
 }  // namespace clench::bench

@@ -57,7 +57,7 @@ class FclEmbreeStep : public PeerStep {
       Pair& pair = pairs_[i];
       if (sphere_gap(world_, pair.a, pair.b) > 0) continue;
       if (*pair.peer->collide(world_.pose(pair.a).inverse() * world_.pose(pair.b))) {
-        // the pair that collided last is asked first
+        // the pair that collided last is tested first
         if (tuned_)
           std::rotate(pairs_.begin(), pairs_.begin() + std::ptrdiff_t(i),
                       pairs_.begin() + std::ptrdiff_t(i) + 1);

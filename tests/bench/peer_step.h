@@ -1,5 +1,5 @@
-// The annealing step made from FCL (does the hand collide?) and Embree (the object's nearest
-// points): the same random draws, the same rules, the same energy, so that it goes where ours goes.
+// The annealing step built from FCL (collisions of the hand) and Embree (nearest points of the
+// object): the same random numbers, rules and energy, so that it visits the same states as Clench.
 #pragma once
 #include <memory>
 
@@ -11,19 +11,19 @@ namespace clench::bench {
 class PeerStep {
  public:
   virtual ~PeerStep() = default;
-  /// Takes so many steps with a legal neighbor.
+  /// Takes `count` steps that have a collision-free neighbor.
   virtual void run(int count) = 0;
   virtual double energy() const = 0;
   virtual const Values& values() const = 0;
 };
 
-/// plain: every pair of bodies whose spheres meet, in creation order, up to the first that
-/// collides, and all sites.
-/// tuned: with what ours has besides faster queries: the pair that collided last first, and no more
-/// of the sum than is needed.
+/// plain: tests every pair of bodies with overlapping spheres, in creation order, up to the first
+/// collision, and evaluates all sites.
+/// tuned: like Clench apart from the queries: tests the pair that collided last first, and
+/// evaluates no more of the sum than needed.
 enum class PeerKind { plain, tuned };
 
-/// null: this program was built without one of them
+/// null if this program was built without one of the libraries
 std::unique_ptr<PeerStep> peer_step(World& world, const HandAndObject& who,
                                     const SearchSpace& space, uint64_t seed, PeerKind kind);
 

@@ -1,4 +1,4 @@
-// Other libraries asked the same questions as ours, for the benchmark of geometry queries.
+// Other libraries with the same queries as Clench, for the benchmark of geometry queries.
 #pragma once
 #include <memory>
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace clench::bench {
 
-/// One library's view of two meshes. What it has no query for it answers with nothing.
+/// One library's view of two meshes. Queries that the library lacks return nothing.
 class PairPeer {
  public:
   virtual ~PairPeer() = default;
@@ -22,7 +22,7 @@ class PointPeer {
   virtual ~PointPeer() = default;
   virtual std::optional<double> distance(const Eigen::Vector3d&) { return {}; }
   virtual std::optional<Eigen::Vector3d> nearest(const Eigen::Vector3d&) { return {}; }
-  /// of the first hit; infinity for none
+  /// distance of the first hit; infinity without a hit
   virtual std::optional<double> cast(const Eigen::Vector3d&, const Eigen::Vector3d&) { return {}; }
 };
 
@@ -35,7 +35,7 @@ struct Peer {
   MakePoint point = nullptr;
 };
 
-/// those that this program was built with
+/// the libraries that this program was built with
 std::vector<Peer> peers();
 
 std::unique_ptr<PairPeer> fcl_pair(const Shape& a, const Shape& b);

@@ -1,7 +1,7 @@
-// Pictures of 640 x 480 in software or on the graphics card: the first of a world, the second, one
-// after its hand has moved, and one from another side, as drafts and in paper quality, beside the
-// same triangles drawn once by bare OpenGL. Then frames of 1070 x 937, not read back: of a camera
-// that turns, and of a hand that moves.
+// Pictures of 640 x 480 in software or on the graphics card: of a world the first picture, the
+// second, one after its hand has moved, and one from another side, in draft and paper quality,
+// compared with the same triangles drawn once by bare OpenGL. Then frames of 1070 x 937, not read
+// back: with a turning camera, and with a moving hand.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace {
 constexpr int width = 640, height = 480;
 constexpr double aspect = static_cast<double>(width) / height;
 
-// so many DLR hands on flasks, side by side: 31,708 triangles each
+// a number of DLR hands with flasks, side by side: 31,708 triangles each
 Scene hands(int count, bool moved) {
   World world = build_world(read_world("worlds/dlr_flask.wld", {.root = "."}));
   autograsp(world, world.robots()[0]);
@@ -93,7 +93,7 @@ void measure(int count, const std::string& name, Quality quality, int rounds, Re
   report.add("moved, " + kind, name, posed);
 }
 
-// as a viewer shows them; returns the median of bare OpenGL [ms]
+// frames as a viewer shows them; returns the median of bare OpenGL [ms]
 double measure_frames(int count, const std::string& name, int rounds, Report& report) {
   constexpr int wide = 1070, high = 937;
   constexpr double ratio = static_cast<double>(wide) / high;
@@ -163,12 +163,12 @@ int main(int argc, char** argv) {
     aim("moved, draft", large, 150);
     aim("second, paper", large, 1000);
   }
-  // of drawing the triangles once with nothing: geometric mean over the worlds
+  // relative to drawing the triangles once by bare OpenGL: geometric mean over the worlds
   aims.push_back(
       {"second draft / bare", 1 / report.ratio("second, draft", "bare", "second, draft"), 8, true});
   aims.push_back({"second paper / bare", 1 / report.ratio("second, paper", "bare", "second, paper"),
                   60, true});
-  // 24 frames a second, or a quarter of the rate of bare OpenGL
+  // 24 frames per second, or a quarter of the rate of bare OpenGL
   aim("frame, camera turns", small, std::max(1000.0 / 24, 4 * bare_frame));
   const bool good = report.judge(aims);
   const bool written = csv.empty() || report.write_csv(csv);

@@ -1,7 +1,7 @@
--- Grasps a second: every hand of ours on five of our objects, what plan.sample finds and verifies in a few seconds of one
--- core; and the planners beside each other on one problem, with the same time.
+-- Grasps per second: every shipped hand on five shipped objects, found and verified by plan.sample in a few seconds of one core; then a comparison of
+-- the planners on one problem, with the same time.
 --   clench run tests/bench/planners.lua [--seconds S] [--check] [--csv FILE]
--- A grasp counts once per place, turn and posture; aims: 1 a second on average, 10 is wished for.
+-- A grasp counts once per place, rotation and posture. Aim: 1 grasp per second on average; the goal is 10.
 local clench = require "clench"
 
 local seconds, check, csv = 3, false, nil
@@ -34,7 +34,7 @@ for _, model in ipairs(clench.catalog().hands) do
     local world, hand, object = load(model, object_path)
     local began = os.clock()
     local run = clench.plan.sample {hand = hand, object = object, seconds = seconds, count = 100000, seed = 1, refine = 4, threads = 1}
-    local took = os.clock() - began  -- of the processor: others may use the machine as well
+    local took = os.clock() - began  -- processor time: other processes may use the machine as well
     local best = run.grasps[1] and run.grasps[1].epsilon or 0
     local rate = #run.grasps / took
     count, sum = count + 1, sum + rate

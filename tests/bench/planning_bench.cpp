@@ -1,5 +1,6 @@
-// Annealing steps a second beside the step made from FCL and Embree, the same random draws in turns
-// in one process; energies a second, two threads against one, and memory over a long run.
+// Annealing steps per second compared with the step built from FCL and Embree, alternating on the
+// same random numbers in one process; energies per second, two threads compared with one, and
+// memory over a long run.
 //   bench_planning [--brief] [--csv FILE] [--check]
 #include <fmt/format.h>
 
@@ -19,15 +20,14 @@ using namespace clench::bench;
 
 namespace {
 
-/// A hand, an object, and what the original made of them: annealing steps a second, by CPU time
-/// where that is known.
+/// A hand, an object, and the original's annealing steps per CPU second, or NaN.
 struct Scene {
   std::string name, root, hand, object;
   double original = NAN;
 };
 
-// originals: one thread, contact energy at preset contacts, axis-angle space; its planner's own CPU
-// seconds of 40,000 steps, but for Barrett and flask, of which the wall time is known
+// figures of the original: one thread, contact energy at preset contacts, axis-angle space; CPU
+// seconds of its planner for 40,000 steps, but wall time for Barrett and flask
 std::vector<Scene> scenes() {
   std::vector<Scene> out = {
       {"human hand + flask (ours)", ".", "models/hands/human/human20.cfg",
@@ -58,7 +58,7 @@ double resident_megabytes() {
   return double(resident) * 4096 / 1e6;
 }
 
-/// A chain in a world of its own.
+/// A chain with a separate world.
 struct Chain {
   std::unique_ptr<World> world;
   HandAndObject who;
@@ -88,7 +88,7 @@ Chain chain_of(const World& world, const HandAndObject& who, uint64_t seed) {
 }
 
 struct Figures {
-  double ours = NAN, plain = NAN, tuned = NAN, evaluations = NAN;  ///< a second
+  double ours = NAN, plain = NAN, tuned = NAN, evaluations = NAN;  ///< per second
 };
 
 Figures measure(const Scene& scene, const BenchOptions& options, Report& report) {
@@ -111,7 +111,7 @@ Figures measure(const Scene& scene, const BenchOptions& options, Report& report)
     peer.step = peer_step(*peer.chain.world, who, *peer.chain.space, seed, kind);
     if (peer.step) peers.push_back(std::move(peer));
   }
-  // blocks in turns, of the same steps, so that all meet the same states
+  // alternating blocks of the same steps, so that all visit the same states
   const int blocks = options.brief ? 2 : 20, steps = options.brief ? 20 : 500;
   double own_time = 0, energy_time = 0;
   int evaluated = 0;
@@ -131,7 +131,7 @@ Figures measure(const Scene& scene, const BenchOptions& options, Report& report)
       report.check(same, fmt::format("{}: where the chain stands after {} steps of {}", scene.name,
                                      (b + 1) * steps, peer.name));
     }
-    // energies of states near the chain's, each set and measured anew
+    // energies of states near the chain's; each state is set and evaluated again
     const HandState at = own.space->state(own.search->values());
     const Pose X_WO = beside.world->pose(who.object);
     start = cpu_seconds();
@@ -174,7 +174,7 @@ double thread_scaling(const Scene& scene, int steps) {
   return one / seconds(2);
 }
 
-/// memory at the end of a long run over that after its first quarter
+/// memory at the end of a long run divided by that after its first quarter
 double memory_growth(const Scene& scene, int steps) {
   HandAndObject who;
   const World world = built(scene, who);
@@ -204,7 +204,7 @@ int main(int argc, char** argv) {
     fmt::print("{:26} {:8.0f} {:13.0f} {:6.1f} {:8.0f} {:6.1f} {:9.0f} {:6.1f} {:11.0f}\n",
                scene.name, f.ours, f.plain, f.ours / f.plain, f.tuned, f.ours / f.tuned,
                scene.original, f.ours / scene.original, f.evaluations);
-    // a missing figure stays missing
+    // the minimum is NaN if any figure is missing
     const double ratio = f.ours / f.plain;
     min_peer = std::isnan(ratio) ? NAN : std::min(min_peer, ratio);
     if (!std::isnan(scene.original)) {
@@ -213,7 +213,7 @@ int main(int argc, char** argv) {
     }
   }
   aims.push_back({"least of FCL + Embree / ours (aim 20)", min_peer, 8});
-  // without the original's models there is nothing to hold its figures against
+  // the original's figures are for its own models
   if (original)
     aims.push_back({"least of ours / the original's (aim 25)", min_original, 15});
   else

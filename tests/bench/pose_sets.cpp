@@ -18,7 +18,7 @@ std::filesystem::path shared() {
   return given ? given : "../shared";
 }
 
-// the shape of a body of one of our worlds
+// the shape of a body of one of the shipped worlds
 ShapePtr body_of(const char* world, const char* name) {
   ReadOptions options;
   options.root = ".";
@@ -28,7 +28,7 @@ ShapePtr body_of(const char* world, const char* name) {
   fail("worlds/{}: no body '{}'", world, name);
 }
 
-// a scanned object, its vertices made one where they are at one place
+// a scanned object with coincident vertices merged
 ShapePtr scan_of(const char* name) {
   const auto path = shared() / "data" / "ycb" / name;
   return std::filesystem::exists(path) ? Shape::make(weld(test::read_obj(path)), name) : nullptr;
@@ -68,7 +68,8 @@ std::vector<Pose> poses_of(const MeshPair& pair, const Situation& situation, int
     X.position = a.center() + (a.radius() + b.radius() + 0.01) * way - X.rotation * b.center();
     const Distance d = distance(a, b, X);
     X.position += (d.distance - gap) * (d.p_a - d.p_b).normalized();
-    // a way in of one place may be a way past another
+    // moving along one line may miss the surface elsewhere: keep only poses in the intended
+    // situation
     if ((gap > 0) != colliding(a, b, X)) poses.push_back(X);
   }
   return poses;

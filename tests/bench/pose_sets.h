@@ -1,5 +1,5 @@
-// Pairs of meshes, and poses where they are far, near, touching and penetrating: the same on every
-// machine.
+// Pairs of meshes, and poses in which they are far, near, touching and penetrating: the same on
+// every machine.
 #pragma once
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@ struct MeshPair {
   ShapePtr a, b;
 };
 
-/// Links and objects of our models, and of ../shared/data where it is present.
+/// Links and objects of the shipped models, and of ../shared/data if present.
 std::vector<MeshPair> mesh_pairs();
 
 struct Situation {
@@ -25,8 +25,8 @@ inline constexpr Situation situations[] = {{"far", 20e-3, 120e-3},
                                            {"touching", 5e-6, 95e-6},
                                            {"penetrating", -8.5e-3, -0.5e-3}};
 
-/// b turned at random about a, and moved along the line between the nearest points to a gap drawn
-/// from the situation's.
+/// b in random orientations, moved along the line between the nearest points to a gap drawn from
+/// the range of the situation.
 std::vector<Pose> poses_of(const MeshPair& pair, const Situation& situation, int count,
                            uint64_t seed);
 

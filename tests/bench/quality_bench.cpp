@@ -1,6 +1,6 @@
-// Our wrench spaces beside qhull: the same sets in one process, turn by turn, every answer
-// compared; and very many sets that are hard on hulls, none of which may fail. Prints medians and
-// ratios, writes them as CSV.
+// Clench's wrench spaces compared with qhull: the same sets in one process, alternating, with all
+// answers compared; and very many sets that are hard for hull algorithms, none of which may fail.
+// Prints medians and ratios, and writes them as CSV.
 //   bench_quality [--brief] [--csv FILE] [--check]
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ namespace {
 
 using Set = std::vector<Wrenches>;
 
-// answers of size one are to agree to this
+// tolerance of the comparison, for answers of size one
 constexpr double agreement = 1e-9;
 
 struct Named {
@@ -43,12 +43,12 @@ std::vector<PointContact> random_contacts(Random& random, int count) {
   return out;
 }
 
-// random grasps, those that hold or those that do not
+// random grasps, either all with or all without force closure
 Named random_sets(int contacts, int count, bool closed) {
   Named out{fmt::format("{} contacts", contacts), {}};
   Random random(1, contacts);
   while (static_cast<int>(out.sets.size()) < count) {
-    // points all on one side do not hold: half a ball of directions
+    // no force closure: all contact points on one side, in half a ball of directions
     auto all = random_contacts(random, contacts);
     if (!closed)
       for (PointContact& c : all)
@@ -73,7 +73,7 @@ std::vector<Named> symmetric_sets() {
   return out;
 }
 
-// of hands that have closed on something, hard or soft
+// of hands that have closed on hard or soft objects
 std::vector<Named> real_sets(bool brief) {
   std::vector<Named> out;
   ReadOptions options;
@@ -116,9 +116,10 @@ std::vector<Named> real_sets(bool brief) {
 
 double size_of(const Wrenches& all) { return all.colwise().norm().maxCoeff(); }
 
-// qhull's ways: the fastest whose answers were all right counts, query by query and pair by pair.
-// Joggled answers, of QJ, are off by some 1e-10. Where Qt, which gives exact hulls of triangles,
-// does not refuse the set, it must say the same as ours, else another way
+// Option sets of qhull: the fastest one whose answers were all correct is used, query by query and
+// pair by pair. Answers with joggled input (QJ) have errors of about 1e-10. If Qt, which gives
+// exact hulls of triangles, accepts the set, it must agree with Clench; otherwise another option
+// set is used
 struct Way {
   const char *name, *options;
   bool competes;
@@ -135,10 +136,10 @@ double mean_of(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-// Which of qhull's ways counted, by query.
+// Counts the option sets of qhull that were used, by query.
 class Fastest {
  public:
-  /// wrong  those that gave a wrong answer or none
+  /// wrong  option sets with a wrong answer or none
   void choose(const std::string& query, Times& times, const std::set<std::string>& wrong) {
     const Way* best = nullptr;
     for (const Way& way : ways)
@@ -241,7 +242,7 @@ void measure_round(int contacts, int count, WrenchNorm norm, Report& report) {
       fmt::format("{} contacts", contacts), times);
 }
 
-// returns  how many sets failed
+// returns  number of failed sets
 int measure_robustness(int count, Report& report) {
   int failures = 0;
   Times times, times_linf;
@@ -270,7 +271,7 @@ int measure_robustness(int count, Report& report) {
           fails("no bracket in L-infinity");
         if (more < epsilon - agreement * size) fails("L-infinity below L1");
       }
-      // as long as the hull by qhull takes
+      // compared rarely: this hull takes as long as qhull
       if (i / wrench_set_kinds % 100 == 0) {
         const Hull hull = space.hull();
         const double exact = hull.full() ? std::max(0.0, hull.offsets.minCoeff()) : 0;

@@ -1,4 +1,4 @@
-// Medians of what was asked, by question, pair and library, and how many answers disagreed.
+// Medians of times by query, pair and library, and the number of disagreeing answers.
 #pragma once
 #include <chrono>
 #include <map>
@@ -19,7 +19,7 @@ inline double now() {
 /// Processor time of this thread [s].
 double cpu_seconds();
 
-/// the answer of a question, and how long it took [us]
+/// the answer of a query, and its time [us]
 template <class Ask>
 auto timed(std::vector<double>& times, Ask&& ask) {
   const double start = now();
@@ -30,64 +30,64 @@ auto timed(std::vector<double>& times, Ask&& ask) {
 
 using Times = std::map<std::string, std::vector<double>>;  ///< by library [us]
 
-/// Libraries take turns on blocks of so many questions: near in time, and each with its own data at
-/// hand.
+/// Libraries alternate on blocks of this many queries: close in time, and each with its own data in
+/// the cache.
 inline constexpr int block = 10;
 
-/// A figure that issue and specification ask for.
+/// A figure required by an issue or the specification.
 struct Aim {
   std::string what;
   double value, must;
   bool at_most = false;
-  /// nothing measured gives NaN; of no time at all the ratio is infinite or 0
+  /// NaN without measurements; infinite or 0 for a time of zero
   bool measured() const;
   bool met() const { return measured() && (at_most ? value <= must : value >= must); }
 };
 
-/// one line of the table: a question, in a situation, of a pair of meshes
+/// one row of the table: a query, in a situation, for a pair of meshes
 struct Row {
   std::string query, pair;
   std::map<std::string, double> medians;  ///< by library [us]
 };
 
-/// What the command of a bench asks for.
+/// Options of the command of a bench.
 struct BenchOptions {
-  bool brief = false;  ///< to see that all works
+  bool brief = false;  ///< only checks that everything works
   bool check = false;  ///< a missed aim is a failure
-  std::string csv;     ///< where the table goes; "": nowhere
+  std::string csv;     ///< path of the table; "": not written
 };
-/// empty, after a sentence of usage, when a word is none of them
+/// empty, after a usage message, if a word is unknown
 std::optional<BenchOptions> read_options(int argc, char** argv, const char* program);
 
 class Report {
  public:
-  /// of a library that must be right
+  /// for a library whose answers must be correct
   void check(bool agrees, const std::string& what);
-  /// of one that need not be
+  /// for a library whose answers may be wrong
   void count(const std::string& library, bool agrees);
   void add(const std::string& query, const std::string& pair, const Times& times);
   void sort();
 
-  /// geometric mean over the pairs of our own figure
+  /// geometric mean of Clench's own figure over the pairs
   double mean(const std::string& query) const;
-  /// geometric mean over the pairs of the time of `other` over that of ours, in own_query if given;
-  /// NaN when one of them was not measured
+  /// geometric mean over the pairs of the time of `other` divided by Clench's, for own_query if
+  /// given; NaN if one of them was not measured
   double ratio(const std::string& query, const std::string& other,
                const std::string& own_query = "") const;
-  /// our own figure of one pair; NaN when it was not measured
+  /// Clench's own figure for one pair; NaN if it was not measured
   double median(const std::string& query, const std::string& pair) const;
 
   void print(const std::vector<std::string>& libraries) const;
-  /// Prints each aim with its figure. True when answers were compared, all agree, and every aim was
+  /// Prints each aim with its figure. True if answers were compared, all agree, and every aim was
   /// measured and is met.
   bool judge(const std::vector<Aim>& aims) const;
-  /// false, after a sentence, when it cannot be written
+  /// false, after a message, if the file cannot be written
   bool write_csv(const std::string& path) const;
 
  private:
   std::vector<Row> rows_;
   int checked_ = 0, disagreed_ = 0;
-  std::map<std::string, std::pair<int, int>> wrong_;  // wrong answers, and all of them, by library
+  std::map<std::string, std::pair<int, int>> wrong_;  // wrong answers and all answers, by library
 };
 
 }  // namespace clench::bench

@@ -9,7 +9,7 @@ using namespace clench::bench;
 
 namespace {
 
-// twice as fast as the other library, all answers the same
+// twice as fast as the other library, with equal answers
 Report measured() {
   Report report;
   report.check(true, "an answer");
@@ -19,14 +19,14 @@ Report measured() {
 
 }  // namespace
 
-TEST_CASE("an aim that is measured and met is good") {
+TEST_CASE("a measured aim that is met passes") {
   const Report report = measured();
   CHECK(report.ratio("near", "theirs") == doctest::Approx(2));
   CHECK(report.judge({{"near", report.ratio("near", "theirs"), 2}}));
   CHECK_FALSE(report.judge({{"near", report.ratio("near", "theirs"), 3}}));
 }
 
-TEST_CASE("an aim of which nothing was measured is missed, in either direction") {
+TEST_CASE("an aim without measurements is missed, in either direction") {
   const Report report = measured();
   CHECK(std::isnan(report.ratio("near", "a library that is not here")));
   CHECK(std::isnan(report.ratio("far", "theirs")));
@@ -36,7 +36,7 @@ TEST_CASE("an aim of which nothing was measured is missed, in either direction")
   CHECK_FALSE(report.judge({{"far", report.mean("far"), 2, true}}));
 }
 
-TEST_CASE("times of zero measure nothing") {
+TEST_CASE("times of zero are no measurement") {
   Report report;
   report.check(true, "an answer");
   report.add("near", "a cup", {{"ours", {0}}, {"theirs", {2}}});
@@ -45,14 +45,14 @@ TEST_CASE("times of zero measure nothing") {
   CHECK(report.judge({{"failures, of which none are allowed", 0, 0, true}}));
 }
 
-TEST_CASE("a library that was asked nothing has no median") {
+TEST_CASE("a library without queries has no median") {
   Report report;
   report.check(true, "an answer");
   report.add("near", "a cup", {{"ours", {}}, {"theirs", {2}}});
   CHECK(std::isnan(report.ratio("near", "theirs")));
 }
 
-TEST_CASE("without compared answers, or with one that differs, the check fails") {
+TEST_CASE("the check fails without compared answers, or if one differs") {
   CHECK_FALSE(Report().judge({}));
   Report report = measured();
   CHECK(report.judge({}));
@@ -60,7 +60,7 @@ TEST_CASE("without compared answers, or with one that differs, the check fails")
   CHECK_FALSE(report.judge({}));
 }
 
-TEST_CASE("a table that cannot be written is told") {
+TEST_CASE("a table that cannot be written is reported") {
   CHECK_FALSE(measured().write_csv("no/such/folder/table.csv"));
   CHECK_FALSE(measured().write_csv("/dev/full"));
 }

@@ -1,4 +1,5 @@
--- Many hands shaken in parallel: grasps judged by the six-direction test, a second of processor time, on one thread and on two, the same bytes out.
+-- Many hands shaken in parallel: grasps judged by the six-direction test per second of processor time, on one thread and on two, with byte-identical
+-- output.
 -- clench run tests/bench/shaken_hands.lua [--check] [--csv FILE]
 local clench = require "clench"
 local check, csv

@@ -1,12 +1,11 @@
--- Costs of a world's state, as a script sees them: snapshot, restore, clone, kinematics, verdicts on collisions, closing
--- and loading. Prints one line each: name, seconds, seconds of what had to be done besides, parted by tabs.
---   clench -q run tests/bench/state.lua WORLD HAND OBJECT    files, from the project's root: the DLR hand and flask, the
---                                                            human hand of 20 DOFs, and what it meets
+-- Costs of a world's state, as seen by a script: snapshot, restore, clone, kinematics, collision queries, closing and loading. Prints one
+-- tab-separated line each: name, seconds, seconds of the other work in the measured block.
+--   clench -q run tests/bench/state.lua WORLD HAND OBJECT    files, from the project's root: the DLR hand and flask, the human hand of 20 DOFs, and its object
 -- It runs on this build and on the build that it is compared with, so it uses only entries that both have.
 local clench = require "clench"
 local world_file, hand_file, object_file = table.unpack(arg)
 
--- the least of five rounds, each of some 50 ms, or less where that is asked for
+-- the minimum of five rounds of some 50 ms each, or of CLENCH_BENCH_ROUND seconds
 local round = tonumber(os.getenv "CLENCH_BENCH_ROUND" or 0.05)
 local function seconds_of(action)
   local count, best = 1, math.huge

@@ -1,5 +1,5 @@
--- Costs of a world's state on this build beside those on the build before model and state were parted: each in turn, the
--- least of the rounds counts, and ratios are what is asked for.
+-- Costs of a world's state on this build compared with the build before model and state were separated: alternating runs, the minimum of the rounds,
+-- and ratios as aims.
 --   lua5.4 tests/bench/state_ratios.lua BEFORE NOW [--check] [--brief]      two programs, from the project's root
 local before, now = arg[1], arg[2]
 local asked = {}
@@ -16,7 +16,7 @@ local function exists(path)
   return file and file:close()
 end
 
--- of the original where they are, else our own
+-- models of the original if present, else the shipped ones
 local shared = (os.getenv "CLENCH_SHARED" or "../shared") .. "/data/"
 local files = {shared .. "graspit/worlds/dlr_flask.wld", shared .. "graspit-xml/models/robots/HumanHand/HumanHand20DOF.xml",
                shared .. "graspit-xml/models/objects/flask.xml"}
@@ -27,8 +27,7 @@ end
 
 local function quoted(text) return "'" .. text:gsub("'", "'\\''") .. "'" end
 
--- keeps the least of each figure, and of what was done besides: a difference of two that were taken at different times may
--- be less than what it stands for
+-- keeps the minimum of each figure, and separately that of the other work: differences of values from different runs may be below the true cost
 local function measure(program, least)
   local command = ("%s -q run tests/bench/state.lua"):format(quoted(program))
   for _, file in ipairs(files) do command = command .. " " .. quoted(file) end
@@ -58,7 +57,7 @@ for _, figure in ipairs(figures) do
   if not (ratio and ratio >= expected) then missed = missed + 1 end
   print(("%-22s %12s %12s %8s %8g"):format(name, a and ("%.2f"):format(a * 1e6) or "none", b and ("%.2f"):format(b * 1e6) or "none",
     ratio and ("%.2f"):format(ratio) or "none", expected))
-  if not ratio then asked["--check"] = true end  -- what measured nothing has failed
+  if not ratio then asked["--check"] = true end  -- a figure without measurement fails
 end
 if asked["--check"] and missed > 0 then
   print(missed .. " of " .. #figures .. " are missed")

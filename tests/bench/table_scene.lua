@@ -45,7 +45,7 @@ local function rest(world, object)
 end
 
 --- A hand above an object at rest on a table.
----@return {world: world, hand: robot, object: body, table: body}?  nil: there is no shared data
+---@return {world: world, hand: robot, object: body, table: body}?  nil without shared data
 function table_scene.load(hand_name, object_name)
   if not is_there(paths[hand_name]) or not is_there(paths[object_name]) then return nil end
   local world = clench.world()
@@ -66,7 +66,7 @@ local function describe_hand(hand_name)
   return describe.hand(hand)
 end
 
--- The mean torsion radius of the contacts of each link, 0 of those that do not touch the object [m].
+-- The mean torsion radius of the contacts of each link, 0 for links that do not touch the object [m].
 local function torsion_radii(grasp, links)
   local out = {}
   for i, link in ipairs(links) do

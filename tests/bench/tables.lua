@@ -1,4 +1,4 @@
--- Grasps of objects at rest on a table: five hands, eleven objects of ours and of shared data, verified grasps in 8 s of one core.
+-- Grasps of objects at rest on a table: five hands, eleven shipped and shared objects, verified grasps in 8 s of one core.
 --   clench run tests/bench/tables.lua [--seconds S | --candidates N] [--hands NAME,...] [--objects NAME,...] [--check] [--csv FILE] [--scenes FOLDER]
 --   --hands, --objects  a part of the table
 --   --candidates        number of candidates per pair, instead of a time

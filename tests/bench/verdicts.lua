@@ -1,9 +1,10 @@
--- Grasps of URDF hands on scans, their verdicts by study.shake, and all that another engine needs to judge them again, as JSON: a file per pair.
+-- Grasps of URDF hands on scans, their verdicts by study.shake, and all data that another engine needs to judge them again, as JSON: one file per
+-- pair.
 -- clench run tests/bench/verdicts.lua FOLDER KIND [COUNT [SEED]]
---   KIND   "random", force closure from random approaches; "planned", by plan.sample; "verified", by plan.sample with shake; "brief", two of our
---          own hand on our own cube
---   COUNT  of each pair
---   SEED   of the approaches that are tried
+--   KIND   "random", force closure from random approaches; "planned", by plan.sample; "verified", by plan.sample with shake; "brief", two grasps of a
+--          shipped hand on the shipped cube
+--   COUNT  number per pair
+--   SEED   of the tested approaches
 package.path = "tests/bench/?.lua;" .. package.path
 local clench = require "clench"
 local describe = require "verdicts.describe"
@@ -16,7 +17,7 @@ local hands = {allegro = "allegro_hand/allegro_hand_right", leap = "leap_hand/le
 local objects = {apple = "013_apple", can = "005_tomato_soup_can", mustard = "006_mustard_bottle", banana = "011_banana"}
 local mass, mu, weights, min_epsilon = 0.1, 0.6, 10, 0.01
 
--- the joints' values that the description is of: as near to 0 as they can be
+-- DOF values at which the hand is described: as close to 0 as possible
 local function zero(hand)
   local values = {}
   for i, limits in ipairs(hand.dof_limits) do values[i] = math.max(limits[1], math.min(limits[2], 0)) end
@@ -48,7 +49,7 @@ local function find(hand, object)
   for _, grasp in ipairs(clench.plan.random(options).grasps) do
     if grasp.epsilon > min_epsilon then all[#all + 1] = grasp end
   end
-  -- any of them, not the best
+  -- a random subset, not the best grasps
   local random = clench.random(seed + 4)
   for i = #all, 2, -1 do
     local j = random:integer(1, i)
@@ -57,7 +58,7 @@ local function find(hand, object)
   return table.move(all, 1, math.min(count, #all), 1, {})
 end
 
--- the other engines move joints one by one: those of a DOF share its torque
+-- the other engines move each joint separately: the joints of a DOF share its torque
 local function judge(grasp, shared)
   local clench = require "clench"
   local hand, object = shared.hand, shared.object

@@ -1,5 +1,5 @@
-// Verdicts of clench.study.shake beside those of the same test on convex pieces: in our own engine,
-// and in Bullet.
+// Verdicts of clench.study.shake compared with those of the same test on convex pieces: in Clench's
+// engine, and in Bullet.
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -14,8 +14,8 @@ using namespace clench::bench;
 namespace {
 
 struct Options {
-  // folder for files that tell each scene by convex pieces, and our verdicts on them; empty: none
-  // are written
+  // folder for files that describe each scene by convex pieces, with the verdicts of Clench's
+  // engine on them; empty: none are written
   std::string pieces;
   bool in_bullet = false, each = false;
   size_t limit = 1000000;
@@ -46,7 +46,7 @@ struct Tally {
   }
 };
 
-// the file with convex pieces in place of meshes, and our verdicts on them, for
+// the file with convex pieces instead of meshes, and with the verdicts of Clench's engine, for
 // tests/bench/verdicts/mujoco.mjs
 void write_pieces(const std::string& from, const GripScene& scene,
                   const std::vector<Verdicts>& verdicts, const std::string& to) {

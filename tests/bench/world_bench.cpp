@@ -15,7 +15,7 @@ static World gravel(int count) {
   Random random(7);
   const BodySpec stone = test::body_spec("stone", test::box(0.02, 0.015, 0.01));
   World world;
-  // one stone in each cube of 25 mm
+  // one stone per cube of 25 mm
   const double room = 0.5 * 0.025 * std::cbrt(count);
   for (int i = 0; i < count; ++i)
     world.add_body(
@@ -25,7 +25,7 @@ static World gravel(int count) {
   return world;
 }
 
-// as if there were no sweep
+// without the broad phase
 static std::vector<BodyPair> colliding_of_all(const World& world) {
   std::vector<BodyPair> out;
   const auto& all = world.bodies();

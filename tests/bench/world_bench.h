@@ -1,10 +1,10 @@
-// Colliding pairs of worlds of many bodies: what the broad phase costs as they grow.
+// Colliding pairs of worlds with many bodies: cost of the broad phase as they grow.
 #pragma once
 #include "bench/report.h"
 
 namespace clench::bench {
 
-/// boxes as dense as gravel, 10 to `most` of them; all pairs are compared where they are few
+/// boxes as dense as gravel, from 10 to `most`; small numbers are compared with all pairs
 void measure_worlds(int most, Report& report);
 
 }  // namespace clench::bench

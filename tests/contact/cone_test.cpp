@@ -23,7 +23,7 @@ TEST_CASE("a contact frame is right-handed with z along the normal") {
   for (const Eigen::Vector3d& n : normals) {
     const Eigen::Matrix3d frame = contact_frame(n);
     CHECK(frame.col(2) == n);
-    // a few roundings
+    // within a few rounding errors
     CHECK((frame.transpose() * frame - Eigen::Matrix3d::Identity()).norm() < 1e-14);
     CHECK(frame.determinant() == doctest::Approx(1).epsilon(1e-14));
   }
@@ -31,7 +31,7 @@ TEST_CASE("a contact frame is right-handed with z along the normal") {
   CHECK(contact_frame(Eigen::Vector3d::UnitX()).col(0) == -Eigen::Vector3d::UnitY());
 }
 
-TEST_CASE("every edge leans from the normal by the friction angle, counter-clockwise from x") {
+TEST_CASE("every edge is inclined to the normal by the friction angle, counter-clockwise from x") {
   Random random(2);
   for (int trial = 0; trial < 50; ++trial) {
     const PointContact contact{.p_O = random_unit(random), .n_O = random_unit(random), .mu = 0.5};
@@ -43,14 +43,14 @@ TEST_CASE("every edge leans from the normal by the friction angle, counter-clock
       CHECK(f_C.z() == doctest::Approx(1));
       CHECK(f_C.head<2>().norm() == doctest::Approx(0.5));
       const double expected = 2 * std::numbers::pi * j / 12;
-      // the angle's sine and cosine, so that a full turn is no jump
+      // sine and cosine of the angle: continuous over a full turn
       CHECK(f_C.x() == doctest::Approx(0.5 * std::cos(expected)).epsilon(1e-12));
       CHECK(f_C.y() == doctest::Approx(0.5 * std::sin(expected)).epsilon(1e-12));
     }
   }
 }
 
-TEST_CASE("torque is the lever about the given point times force, over rho") {
+TEST_CASE("torque is the lever about the given point times force, divided by rho") {
   const PointContact contact{.p_O = {0.3, -0.2, 0.5}, .n_O = {0, 1, 0}, .mu = 0.7};
   const Eigen::Vector3d about(0.1, 0.1, -0.2);
   const auto wrenches = cone_wrenches(contact, {.edges = 5, .rho = 0.25, .p_OM = about});
@@ -66,7 +66,7 @@ TEST_CASE("without friction the cone is its normal") {
   CHECK(wrenches.col(0) == (Eigen::Matrix<double, 6, 1>() << 0, 0, 1, 0, -1, 0).finished());
 }
 
-TEST_CASE("a bad contact or option is refused by name and value") {
+TEST_CASE("a bad contact or option is rejected by name and value") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refuse = [](const PointContact& contact, const ConeOptions& options, const char* why) {
     CHECK_THROWS_WITH_AS(cone_wrenches(contact, options), why, Error);
@@ -85,7 +85,7 @@ TEST_CASE("a bad contact or option is refused by name and value") {
   refuse({}, {.p_OM = {0, nan, 0}}, "contact cone: the point of torques must be finite");
 }
 
-TEST_CASE("the wrenches of the original's contacts come out again") {
+TEST_CASE("the wrenches of the original's contacts are reproduced") {
   REQUIRE_SHARED();
   int compared = 0;
   for (const char* name : {"dlr_flask", "barrett_flask_bestSA", "plannerMug"}) {
@@ -93,7 +93,7 @@ TEST_CASE("the wrenches of the original's contacts come out again") {
     const auto vector = [](const nlohmann::json& v) {
       return Eigen::Vector3d(v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
     };
-    // millimeters throughout: the ratio to rho has no unit
+    // millimeters throughout: the ratio to rho is dimensionless
     ConeOptions options{.rho = measured["gws_max_radius"], .p_OM = vector(measured["gws_cog"])};
     for (const auto& c : measured["grasp_contact_list"]) {
       options.edges = c["friction_edges"];
@@ -104,14 +104,16 @@ TEST_CASE("the wrenches of the original's contacts come out again") {
       REQUIRE(ours.cols() == static_cast<int>(theirs.size()));
       for (int j = 0; j < ours.cols(); ++j)
         for (int row = 0; row < 6; ++row, ++compared)
-          // theirs is printed with 17 digits; the numbers are of order 1
+          // the original prints 17 digits; the numbers are of order 1
           CHECK(std::abs(ours(row, j) - theirs[j][row].get<double>()) < 1e-9);
     }
   }
   CHECK(compared > 500);
 }
 
-TEST_CASE("a soft contact's edges lie on its ellipsoid, 20 for 8, and turn about the normal") {
+TEST_CASE(
+    "the edges of a soft contact, 20 for 8, lie on its ellipsoid and add a torque about the "
+    "normal") {
   const Eigen::Vector3d about(0.1, 0.1, -0.2);
   const PointContact contact{
       .p_O = {0.3, -0.2, 0.5}, .n_O = {0, 0.6, 0.8}, .mu = 0.7, .torsion_radius = 0.004};
@@ -123,20 +125,21 @@ TEST_CASE("a soft contact's edges lie on its ellipsoid, 20 for 8, and turn about
     for (const auto& w : wrenches.colwise()) {
       const Eigen::Vector3d force = w.head<3>();
       CHECK(force.dot(contact.n_O) == doctest::Approx(1));
-      // what the lever does not explain is the turn about the normal
+      // the part of the torque beyond that of the lever is the torque about the normal
       const Eigen::Vector3d turn = 0.25 * w.tail<3>() - (contact.p_O - about).cross(force);
       CHECK(turn.cross(contact.n_O).norm() < 1e-15);
       const double across = (force - contact.n_O).squaredNorm();
       CHECK(across + std::pow(turn.norm() / 0.004, 2) == doctest::Approx(0.7 * 0.7));
     }
-    // hardly soft is a point contact
+    // without a torsion radius it is a point contact
     const auto hard = cone_wrenches({contact.p_O, contact.n_O, contact.mu}, options);
     CHECK(hard.cols() == edges);
   }
   CHECK(cone_wrenches({.mu = 0, .torsion_radius = 0.1}).cols() == 1);
 }
 
-TEST_CASE("a contact twice the size, torques over twice the length, has the same wrenches") {
+TEST_CASE(
+    "a contact scaled by two, with torques divided by twice the length, has the same wrenches") {
   Random random(4);
   for (const double torsion : {0.0, 0.004})
     for (const double size : {1e-3, 0.5, 2.0, 37.0}) {
@@ -146,7 +149,7 @@ TEST_CASE("a contact twice the size, torques over twice the length, has the same
       PointContact large = contact;
       large.p_O *= size, large.torsion_radius *= size;
       const ConeOptions wide{.rho = size * options.rho, .p_OM = size * options.p_OM};
-      // rounding of levers of length four
+      // rounding errors of levers of length four
       CHECK((cone_wrenches(large, wide) - cone_wrenches(contact, options)).norm() < 1e-13);
       const RoundCone round = round_cone(large, wide), small = round_cone(contact, options);
       CHECK((round.axis - small.axis).norm() < 1e-14);
@@ -154,7 +157,7 @@ TEST_CASE("a contact twice the size, torques over twice the length, has the same
     }
 }
 
-TEST_CASE("a round cone holds its pyramid's edges on its rim") {
+TEST_CASE("the edges of the pyramid lie on the rim of the round cone") {
   Random random(3);
   for (const double torsion : {0.0, 0.02}) {
     PointContact contact{.p_O = random_unit(random), .n_O = random_unit(random), .mu = 0.6};
@@ -173,7 +176,7 @@ TEST_CASE("a round cone holds its pyramid's edges on its rim") {
         rest -= x * cone.spread.col(k);
         square += x * x;
       }
-      CHECK(rest.norm() < 1e-14);  // rounding of levers of length two
+      CHECK(rest.norm() < 1e-14);  // rounding errors of levers of length two
       CHECK(square == doctest::Approx(1));
     }
   }

@@ -32,7 +32,7 @@ Mesh joined(Mesh one, const Mesh& two) {
   return one;
 }
 
-// every triangle cut into four, `times` over
+// every triangle divided into four, `times` times
 Mesh subdivided(Mesh mesh, int times) {
   for (; times > 0; --times) {
     Mesh fine;
@@ -97,7 +97,7 @@ double min_gap(const Touches& touches) {
   return least;
 }
 
-// both sets have the same points on a within the tolerance, and the same normals
+// whether both sets have the same points within the tolerance, and the same normals
 bool same_points(const Touches& x, const Touches& y, double tolerance) {
   const auto covered = [&](const Touches& some, const Touches& by) {
     return std::all_of(some.begin(), some.end(), [&](const Touch& t) {
@@ -121,7 +121,7 @@ void check_sound(const Touches& touches, const Shape& a, const Shape& b, const P
   for (const Touch& t : touches) {
     CHECK(t.normal_b.norm() == doctest::Approx(1).epsilon(1e-14));
     CHECK(t.gap < threshold);
-    // distances between points of size 1 are good to a few 1e-16
+    // distances between points of size 1 are accurate to a few 1e-16
     CHECK(std::abs((t.p_b - t.p_a).norm() - t.gap) < 1e-14);
     CHECK(closest_point(a, t.p_a).distance < 1e-14);
     CHECK(closest_point(b, X_AB.inverse() * t.p_b).distance < 1e-14);
@@ -138,20 +138,24 @@ const Mesh floor_mesh = moved(test::box(1, 1, 0.02), Pose::translation({0, 0, -0
 TEST_CASE("a ball on a plane touches at one point") {
   const auto plane = shape(floor_mesh);
   for (const double radius : {0.001, 0.005, 0.02, 0.1})
-    // facets of 4.5 degrees and more: steeper beside the lowest point than a tilted face may be
+    // facet angles of 4.5 degrees and more: steeper around the lowest point than a tilted face may
+    // be
     for (const int rings : {8, 24, 40}) {
       const auto ball = shape(test::ball(radius, rings, 2 * rings));
       const Pose X_AB = Pose::translation({0.1, 0.05, radius + thin});
       const auto touches = contact_set(*plane, *ball, X_AB);
       REQUIRE(touches.size() == 1);
       CHECK((touches[0].p_a - Vector3d(0.1, 0.05, 0)).norm() < 1e-12);
-      CHECK((touches[0].normal_b - Vector3d::UnitZ()).norm() < 1e-9);  // rounding over the gap
+      // rounding error divided by the gap
+      CHECK((touches[0].normal_b - Vector3d::UnitZ()).norm() < 1e-9);
       CHECK(touches[0].gap == doctest::Approx(thin).epsilon(1e-9));
       check_sound(touches, *plane, *ball, X_AB);
     }
 }
 
-TEST_CASE("a ball of facets as flat as a tilted face still touches around its lowest point") {
+TEST_CASE(
+    "a ball whose facets are within the tilt tolerance of faces still touches around its lowest "
+    "point") {
   const auto plane = shape(floor_mesh);
   for (const double radius : {0.02, 0.2})
     for (const int rings : {60, 70}) {
@@ -160,14 +164,14 @@ TEST_CASE("a ball of facets as flat as a tilted face still touches around its lo
       const auto touches = contact_set(*plane, *ball, X_AB);
       CHECK(touches.size() <= 8);
       CHECK(has_point(touches, {0.1, 0.05, 0}, 1e-12));
-      // the slope of 1/30 that is forgiven, and the facet on whose corner it ends
+      // the tolerated slope of 1/30, and the facet that contains it
       const double reach = radius * (1.0 / 30 + std::numbers::pi / rings);
       for (const Touch& t : touches) CHECK((t.p_a - Vector3d(0.1, 0.05, 0)).norm() < reach);
       check_sound(touches, *plane, *ball, X_AB);
     }
 }
 
-TEST_CASE("a box on a plane touches at its four corners, however its faces are cut") {
+TEST_CASE("a box on a plane touches at its four corners for any triangulation of its faces") {
   const auto plane = shape(floor_mesh), fine_plane = shape(subdivided(floor_mesh, 4));
   for (int times = 0; times < 4; ++times)
     for (const auto& below : {plane, fine_plane})
@@ -187,7 +191,7 @@ TEST_CASE("a box on a plane touches at its four corners, however its faces are c
       }
 }
 
-TEST_CASE("a face offset over a face touches at the outline of the overlap") {
+TEST_CASE("a face offset over another face touches at the outline of the overlap") {
   const auto below = shape(test::box(0.06, 0.04, 0.02));
   for (int times = 0; times < 3; ++times) {
     const auto above = shape(subdivided(test::box(0.05, 0.05, 0.02), times));
@@ -198,7 +202,7 @@ TEST_CASE("a face offset over a face touches at the outline of the overlap") {
       for (const double y : {-0.005, 0.02}) CHECK(has_point(touches, {x, y, 0.01}, 1e-9));
     check_sound(touches, *below, *above, X_AB);
   }
-  // a square turned on a square: an octagon, only edges crossing edges
+  // a square turned on a square: an octagon of crossings of edges only
   const Pose turned{Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitZ())),
                     {0, 0, 0.04 + thin}};
   const auto square = shape(test::box(0.04, 0.04, 0.04));
@@ -212,12 +216,10 @@ TEST_CASE("a face offset over a face touches at the outline of the overlap") {
     }
 }
 
-TEST_CASE(
-    "faces whose edges lie above each other touch along their normal, not aslant from edge to "
-    "edge") {
+TEST_CASE("faces with aligned edges touch along their normal, not obliquely from edge to edge") {
   const auto box = shape(test::box(0.06, 0.06, 0.06));
   const double gap = 2.5e-5;
-  // aside by less than a thirtieth of the gap, in each direction and in both
+  // displaced by less than a thirtieth of the gap, along one axis and along both
   for (const double aside : {2e-9, 2e-8, 2e-7, 6e-7})
     for (const Vector3d& way :
          {Vector3d(1, 0, 0), Vector3d(0, -1, 0), Vector3d(1, 1, 0), Vector3d(-1, 0.5, 0)}) {
@@ -225,7 +227,8 @@ TEST_CASE(
           contact_set(*box, *box, Pose::translation(Vector3d(0, 0, 0.06 + gap) + aside * way));
       CHECK(touches.size() == 4);
       for (const Touch& touch : touches) {
-        CHECK((touch.normal_b - Vector3d::UnitZ()).norm() < 1e-9);  // rounding of 1e-17 m in 25 um
+        // rounding error of 1e-17 m in 25 um
+        CHECK((touch.normal_b - Vector3d::UnitZ()).norm() < 1e-9);
         CHECK(std::abs(touch.gap - gap) < 1e-15);
       }
     }
@@ -239,8 +242,8 @@ TEST_CASE("a cylinder lying on a plane touches at the two ends of its line") {
       const Pose X_AB{Eigen::Quaterniond(Eigen::AngleAxisd(0.4 * turn, Vector3d::UnitZ())),
                       {0.1, 0, 0.02 + thin}};
       const auto touches = contact_set(*plane, *lying, X_AB);
-      // of 400 sides those beside the lowest are flat enough to count: within the slope of 1/30 of
-      // it
+      // with 400 sides, the sides next to the lowest count as flat: they are within its slope of
+      // 1/30
       const double beside = sides > 100 ? 0.02 / 30 + 0.001 : 1e-9;
       CHECK(touches.size() >= 2);
       CHECK(touches.size() <= (sides > 100 ? 4 : 2));
@@ -254,7 +257,7 @@ TEST_CASE("a cylinder lying on a plane touches at the two ends of its line") {
   }
 }
 
-TEST_CASE("every foot of a table stands") {
+TEST_CASE("every foot of a table touches the floor") {
   Mesh table = moved(test::box(0.4, 0.4, 0.02), Pose::translation({0, 0, 0.11}));
   for (const double x : {-0.15, 0.15})
     for (const double y : {-0.15, 0.15})
@@ -269,7 +272,7 @@ TEST_CASE("every foot of a table stands") {
         for (const double dx : {-0.01, 0.01})
           for (const double dy : {-0.01, 0.01})
             CHECK(has_point(touches, {x + dx, y + dy, 0}, 1e-9));
-    // thinned to one per patch, each foot still has one
+    // reduced to one contact per patch, each foot still has one
     const auto few = contact_set(*plane, *stands, X_AB, {.max_per_patch = 1});
     CHECK(few.size() == 4);
     CHECK(min_gap(few) == distance(*plane, *stands, X_AB).distance);
@@ -281,7 +284,7 @@ TEST_CASE("a box in a corner touches floor and both walls, each at four corners"
       joined(joined(floor_mesh, moved(test::box(0.02, 1, 1), Pose::translation({-0.51, 0, 0.5}))),
              moved(test::box(1, 0.02, 1), Pose::translation({0, -0.51, 0.5})));
   const auto room = shape(corner), box = shape(test::box(0.1, 0.1, 0.1));
-  // three gaps, so that each of the box's corners has a nearest side
+  // three different gaps, so that each of the box's corners has a nearest side
   const Pose X_AB = Pose::translation({-0.45 + 7e-5, -0.45 + 3e-5, 0.05 + thin});
   const auto touches = contact_set(*room, *box, X_AB);
   for (int axis = 0; axis < 3; ++axis) {
@@ -302,7 +305,7 @@ TEST_CASE("an edge on a face touches at its ends, a corner at one point") {
   const Eigen::Quaterniond tip = shortest_rotation(Vector3d(1, 1, 1), -Vector3d::UnitZ());
   const Pose on_corner{tip, {0, 0, 0.025 * std::sqrt(3.0) + thin}};
   CHECK(contact_set(*plane, *box, on_corner).size() == 1);
-  // two edges crossed: their crossing only
+  // two crossed edges touch only at their crossing
   const Pose over{Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitX())),
                   {0, 0, h}};
   const Pose under{Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitY())),
@@ -312,7 +315,7 @@ TEST_CASE("an edge on a face touches at its ends, a corner at one point") {
   CHECK((over.rotation * crossed[0].normal_b + Vector3d::UnitZ()).norm() < 1e-9);
 }
 
-TEST_CASE("the closest pair is in every set, to the bit, wherever two bodies come near") {
+TEST_CASE("every set contains the closest pair, bit-exactly, for any two close bodies") {
   Random random(5);
   const std::vector<ShapePtr> shapes = {
       shape(test::box(0.1, 0.06, 0.04)), shape(test::ball(0.03, 10, 20)),
@@ -323,7 +326,7 @@ TEST_CASE("the closest pair is in every set, to the bit, wherever two bodies com
     Pose X_AB = random_pose(random, 0.2);
     const Distance d = distance(a, b, X_AB);
     if (!(d.distance > 0)) continue;
-    // slide b to within a random part of the threshold
+    // move b to a gap that is a random fraction of the threshold
     const double gap = std::pow(10, random.uniform(-12, -4.1));
     X_AB.position -= (d.p_b - d.p_a) * (1 - gap / d.distance);
     const double now = distance(a, b, X_AB).distance;
@@ -332,19 +335,19 @@ TEST_CASE("the closest pair is in every set, to the bit, wherever two bodies com
     const auto touches = contact_set(a, b, X_AB);
     REQUIRE(!touches.empty());
     check_sound(touches, a, b, X_AB);
-    // swapped: the same points, normals turned round
+    // with swapped bodies: the same points, with reversed normals
     const auto swapped = contact_set(b, a, X_AB.inverse());
     Touches back;
     for (const Touch& t : swapped)
       back.push_back({X_AB * t.p_b, X_AB * t.p_a, -(X_AB.rotation * t.normal_b), t.gap});
-    // points move by rounding over the sine of nearly parallel edges; normals only count above
-    // rounding
+    // points move by the rounding error over the sine of nearly parallel edges; normals are
+    // compared only for gaps above rounding
     if (now > 1e-8) CHECK(same_points(touches, back, 1e-7));
   }
   CHECK(near > 200);
 }
 
-TEST_CASE("moving both bodies alike moves the contacts along") {
+TEST_CASE("contacts move with the bodies") {
   Random random(6);
   const Mesh below = test::box(0.06, 0.04, 0.02),
              above = subdivided(test::box(0.05, 0.05, 0.02), 1);
@@ -353,7 +356,7 @@ TEST_CASE("moving both bodies alike moves the contacts along") {
   const auto still = contact_set(*shape(below), *shape(above), X_AB);
   REQUIRE(still.size() >= 4);
   for (int trial = 0; trial < 20; ++trial) {
-    // the same two solids, their frames elsewhere
+    // the same two solids, with other body frames
     const Pose X = random_pose(random, 1), Y = random_pose(random, 1);
     const auto a = shape(moved(below, X)), b = shape(moved(above, Y));
     auto touches = contact_set(*a, *b, X * X_AB * Y.inverse());
@@ -364,7 +367,7 @@ TEST_CASE("moving both bodies alike moves the contacts along") {
   }
 }
 
-TEST_CASE("size does not matter: the set of a small pair is the small set") {
+TEST_CASE("contacts of a scaled pair are the scaled contacts") {
   for (const double scale : {1e-4, 1e-2, 1.0, 1e2}) {
     const auto a = shape(test::box(0.6 * scale, 0.4 * scale, 0.2 * scale));
     const auto b = shape(test::box(0.5 * scale, 0.5 * scale, 0.2 * scale));
@@ -377,29 +380,29 @@ TEST_CASE("size does not matter: the set of a small pair is the small set") {
   }
 }
 
-TEST_CASE("a gap too narrow to point anywhere takes the face's normal") {
+TEST_CASE("a gap too narrow to define a direction takes the face's normal") {
   const auto plane = shape(floor_mesh), box = shape(test::box(0.05, 0.05, 0.05));
   for (const double gap : {1e-15, 1e-13, 1e-11, 1e-9}) {
     const Pose X_AB = Pose::translation({0.1, 0.1, 0.025 + gap});
     const auto touches = contact_set(*plane, *box, X_AB);
-    if (colliding(*plane, *box, X_AB)) continue;  // rounding may close the smallest
+    if (colliding(*plane, *box, X_AB)) continue;  // rounding may close the smallest gap
     REQUIRE(touches.size() == 4);
-    // 1e-6: what the direction of the narrowest trusted gap may be off
+    // 1e-6: largest error of the direction of the narrowest gap that is used
     for (const Touch& t : touches) CHECK((t.normal_b - Vector3d::UnitZ()).norm() < 1e-6);
   }
-  // also where rounding says that edges come nearer than faces
+  // also if edges seem closer than faces because of rounding
   const auto cube = shape(test::box(0.1, 0.1, 0.1));
   for (const double x : {0.1, 0.2, 0.3, 0.5})
     for (const double gap : {5e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9})
       for (int axis = 0; axis < 3; ++axis) {
-        // as two bodies of a world stand: the position of one in the other has its rounding
+        // as for two bodies of a world: their relative position is rounded
         const double apart = (x + 0.1) - (x - gap);
         const auto touches =
             contact_set(*cube, *cube, Pose::translation(apart * Vector3d::Unit(axis)));
         CHECK(touches.size() == 4);
         for (const Touch& t : touches) CHECK((t.normal_b - Vector3d::Unit(axis)).norm() < 1e-6);
       }
-  // a mesh turned inside out is still on the same side
+  // inverting a mesh does not change the side of the contact
   Mesh inverted = test::box(0.05, 0.05, 0.05);
   for (Triangle& t : inverted.triangles) std::swap(t[0], t[1]);
   const auto touches =
@@ -408,7 +411,7 @@ TEST_CASE("a gap too narrow to point anywhere takes the face's normal") {
   for (const Touch& t : touches) CHECK((t.normal_b - Vector3d::UnitZ()).norm() < 1e-6);
 }
 
-TEST_CASE("bodies that are far, meet, or lie in one another have no contacts") {
+TEST_CASE("bodies that are far apart, overlap or contain one another have no contacts") {
   const auto box = shape(test::box(0.1, 0.1, 0.1)),
              inner = shape(test::box(0.0999, 0.0999, 0.0999));
   CHECK(contact_set(*box, *box, Pose::translation({0, 0, 0.1 + 1.1e-4})).empty());
@@ -419,8 +422,8 @@ TEST_CASE("bodies that are far, meet, or lie in one another have no contacts") {
   CHECK(contact_set(*box, *inner, Pose::translation({2e-5, 0, 0})).empty());
 }
 
-TEST_CASE("inside a hollow, contacts point outwards from the body within") {
-  // a closed shell: an outer box, and an inner one that faces inwards
+TEST_CASE("inside a cavity, contact normals point outwards from the enclosed body") {
+  // a closed shell: an outer box, and an inner box that faces inwards
   Mesh cavity = test::box(0.08, 0.08, 0.08);
   for (Triangle& t : cavity.triangles) std::swap(t[0], t[1]);
   const auto shell = shape(joined(test::box(0.1, 0.1, 0.1), cavity));
@@ -430,7 +433,7 @@ TEST_CASE("inside a hollow, contacts point outwards from the body within") {
   for (const Touch& t : touches) CHECK(t.normal_b.z() > 0.999);
 }
 
-TEST_CASE("cracks and triangles without area change nothing") {
+TEST_CASE("cracks and triangles without area do not change contacts") {
   Mesh cracked = soup(subdivided(test::box(0.06, 0.04, 0.02), 2));
   Random random(7);
   for (Vector3d& v : cracked.vertices)
@@ -449,31 +452,32 @@ TEST_CASE("cracks and triangles without area change nothing") {
         const Vector3d corner = X_AB * Vector3d(x, y, -0.01);
         CHECK(has_point(touches, {corner.x(), corner.y(), 0}, 1e-7));
       }
-    // with cracks the closest point may lie anywhere on the face
+    // with cracks the closest point may be anywhere on the face
     CHECK(touches.size() <= 5);
     check_sound(touches, *plane, *box, X_AB);
   }
 }
 
-TEST_CASE("thousands of coplanar triangles are reduced in a time that grows like their number") {
+TEST_CASE("the time to reduce thousands of coplanar triangles grows linearly with their number") {
   const auto plane = shape(floor_mesh);
   double before = 0;
   for (const int times : {4, 5}) {
-    const auto box = shape(subdivided(test::box(0.2, 0.2, 0.02), times));  // 512, 2048 below
+    // for 512 triangles, then for 2048
+    const auto box = shape(subdivided(test::box(0.2, 0.2, 0.02), times));
     const Pose X_AB = Pose::translation({0, 0, 0.01 + thin});
     const std::clock_t start = std::clock();
     const auto touches = contact_set(*plane, *box, X_AB);
     const double took = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     CHECK(touches.size() == 4);
-    // four times the triangles: 16 times the work would be a square law; 12 leaves room for a busy
+    // four times the triangles: a quadratic algorithm takes 16 times as long; 12 allows for a busy
     // machine
     if (before > 2e-3) CHECK(took < 12 * before);
     before = took;
   }
 }
 
-TEST_CASE("a long outline is thinned to points that surround the patch") {
-  // a disc of 200 corners
+TEST_CASE("a long outline is reduced to points that surround the patch") {
+  // a disc with 200 corners
   const auto disc =
       shape(moved(cylinder(0.05, 0.01, 200), Pose::turn(std::numbers::pi / 2, Vector3d::UnitY())));
   const auto plane = shape(floor_mesh);
@@ -490,7 +494,7 @@ TEST_CASE("a long outline is thinned to points that surround the patch") {
   }
 }
 
-TEST_CASE("a hundred touches of one pair are the same to the bit") {
+TEST_CASE("a hundred contacts of one pair are bit-identical") {
   const auto a = shape(subdivided(test::box(0.06, 0.04, 0.02), 3)),
              b = shape(test::ball(0.03, 24, 48));
   const Pose X_AB = Pose::translation({0.001, 0.002, 0.04 + thin});
@@ -505,7 +509,7 @@ TEST_CASE("a hundred touches of one pair are the same to the bit") {
   }
 }
 
-TEST_CASE("bad options are refused by name and value") {
+TEST_CASE("bad options are rejected by name and value") {
   const auto box = shape(test::box(0.1, 0.1, 0.1));
   const auto refuse = [&](const TouchOptions& options, const char* message) {
     CHECK_THROWS_WITH_AS(contact_set(*box, *box, Pose(), options), message, Error);

@@ -1,4 +1,4 @@
-// What contacts lie on: right on every shape, whatever the pose and order, and the same from step
+// Features of contacts: correct for every shape, pose and order of bodies, and constant from step
 // to step.
 #include <doctest/doctest.h>
 
@@ -41,7 +41,7 @@ Pose above(double x, double y, double gap, double yaw = 0) {
 }  // namespace
 
 TEST_CASE(
-    "contacts lie on the features that they name, also of turned shapes and in either order") {
+    "contacts lie on the features that they name, also for turned shapes and in either order") {
   Random random(9);
   int seen = 0;
   std::set<Feature::Kind> kinds;
@@ -77,7 +77,7 @@ TEST_CASE(
 TEST_CASE("a box that slides on a plate keeps the features of its contacts") {
   const auto plate = Shape::make(box(0.5, 0.5, 0.01));
   const auto cuboid = Shape::make(box(0.02, 0.03, 0.04));
-  std::map<int, Vector3d> before;  // corner of the box, and where it touches
+  std::map<int, Vector3d> before;  // corner of the box -> contact point
   Random random(4);
   double x = 0.01, y = 0.02;
   for (int step = 0; step < 60; ++step) {
@@ -92,16 +92,16 @@ TEST_CASE("a box that slides on a plate keeps the features of its contacts") {
     if (step > 0)
       for (const auto& [vertex, p] : now) {
         REQUIRE(before.contains(vertex));
-        // a step and a turn of a hundredth of a radian about the middle
+        // one step, and a rotation by a hundredth of a radian about the center
         CHECK((p - before[vertex]).norm() < 1.6e-3);
       }
     before = now;
   }
 }
 
-TEST_CASE("crossed edges are named by their ends") {
+TEST_CASE("contacts of crossed edges name the ends of the edges") {
   const auto cuboid = Shape::make(box(0.1, 0.1, 0.1));
-  // each on an edge, the edges at right angles
+  // both boxes rest on an edge, with the edges at right angles
   const double half = 0.05 * std::sqrt(2.0);
   const Eigen::Quaterniond on_x(Eigen::AngleAxisd(M_PI / 4, Vector3d::UnitX()));
   const Eigen::Quaterniond on_y(Eigen::AngleAxisd(M_PI / 4, Vector3d::UnitY()));

@@ -6,7 +6,7 @@
 
 using namespace clench;
 
-TEST_CASE("the seven materials stand in their fixed order") {
+TEST_CASE("the seven materials have a fixed order") {
   const MaterialTable table;
   const std::vector<std::string> names = {"frictionless", "glass",  "metal", "plastic",
                                           "wood",         "rubber", "stone"};
@@ -14,7 +14,7 @@ TEST_CASE("the seven materials stand in their fixed order") {
   for (int i = 0; i < 7; ++i) CHECK(table.index(names[i]) == i);
 }
 
-TEST_CASE("the table is symmetric, and sliding rubs 0.1 less than sticking") {
+TEST_CASE("the table is symmetric, and kinetic friction is 0.1 below static friction") {
   const MaterialTable table;
   for (int a = 0; a < 7; ++a)
     for (int b = 0; b < 7; ++b) {
@@ -38,7 +38,7 @@ TEST_CASE("the table is symmetric, and sliding rubs 0.1 less than sticking") {
   CHECK(mu("stone", "wood") == 0.6);
 }
 
-TEST_CASE("a changed pair changes both ways round and nothing else") {
+TEST_CASE("setting a pair changes both of its orders and no other pair") {
   MaterialTable table;
   const MaterialTable before = table;
   table.set_friction("wood", "glass", {.statics = 0.55, .kinetic = 0.5});
@@ -50,7 +50,7 @@ TEST_CASE("a changed pair changes both ways round and nothing else") {
     }
 }
 
-TEST_CASE("a new material keeps the others' friction and has none but what it is told") {
+TEST_CASE("a new material keeps the others' friction and has only the coefficients that are set") {
   MaterialTable table;
   const MaterialTable before = table;
   table.set_friction("cork", "felt", {.statics = 0.8, .kinetic = 0.7});
@@ -66,7 +66,7 @@ TEST_CASE("a new material keeps the others' friction and has none but what it is
   CHECK(table.friction(table.index("felt"), table.index("felt")).statics == 0);
 }
 
-TEST_CASE("bad coefficients and names are refused, and leave the table as it was") {
+TEST_CASE("bad coefficients and names are rejected, and leave the table unchanged") {
   MaterialTable table;
   const auto refuse = [&](const char* a, const char* b, Friction friction, const char* message) {
     CHECK_THROWS_WITH_AS(table.set_friction(a, b, friction), message, Error);
@@ -90,7 +90,7 @@ TEST_CASE("bad coefficients and names are refused, and leave the table as it was
       Error);
 }
 
-TEST_CASE("there are no more materials than a table can hold") {
+TEST_CASE("a table holds a limited number of materials") {
   MaterialTable table;
   const auto add = [&] {
     for (int i = 0; i < 500; ++i) table.set_friction("wood", fmt::format("m{}", i), {});
@@ -98,7 +98,8 @@ TEST_CASE("there are no more materials than a table can hold") {
   CHECK_THROWS_WITH_AS(add(), "material 'm493': expected at most 500 materials", Error);
 }
 
-TEST_CASE("materials of their own friction combine with each other and with the usual ones") {
+TEST_CASE(
+    "materials with a single coefficient combine with each other and with the standard ones") {
   MaterialTable table;
   const OwnFriction low{.mu = 0.05}, high{.mu = 0.9}, first{.mu = 0.2, .priority = 1},
       smooth{.mu = 0.3, .frictionless = true};
@@ -113,13 +114,13 @@ TEST_CASE("materials of their own friction combine with each other and with the 
   CHECK(mu(name(first), name(high)) == 0.2);
   CHECK(mu(name(smooth), name(smooth)) == 0);
   CHECK(mu(name(smooth), name(low)) == 0.3);
-  // the larger of both's own
+  // the larger of the two coefficients
   CHECK(mu(name(low), "plastic") == 0.3);
   CHECK(mu(name(high), "plastic") == 0.9);
   CHECK(mu(name(high), "frictionless") == 0);
   CHECK(mu(name(smooth), "glass") == 0.2);
   CHECK(table.friction(table.index(name(low)), table.index("plastic")).kinetic == 0.3 - 0.1);
-  // coefficients that were set explicitly are kept
+  // explicitly set coefficients are kept
   table.set_friction(name(low), name(high), {0.4, 0.4});
   table.add(low);
   CHECK(mu(name(low), name(high)) == 0.4);

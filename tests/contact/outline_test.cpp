@@ -50,14 +50,14 @@ TEST_CASE("a turned rectangle full of points has four corners") {
     Points points;
     for (int x = 0; x <= 20; ++x)
       for (int y = 0; y <= 10; ++y) points.emplace_back(c * x - s * y, s * x + c * y);
-    // rounding of coordinates near 20 is 1e-15 or so
+    // the rounding error of coordinates near 20 is about 1e-15
     auto corners = outline(points, 1e-9);
     std::sort(corners.begin(), corners.end());
     CHECK(corners == std::vector<int>{0, 10, 220, 230});
   }
 }
 
-TEST_CASE("points on a line have two ends, whatever the line's direction") {
+TEST_CASE("points on a line have two ends for any direction of the line") {
   Random random(2);
   for (int trial = 0; trial < 100; ++trial) {
     const double angle = random.uniform(0, 7);
@@ -74,14 +74,14 @@ TEST_CASE("points on a line have two ends, whatever the line's direction") {
   }
 }
 
-TEST_CASE("no point, one point and one point many times give none and one") {
+TEST_CASE("no points give no outline, and one or many equal points give one corner") {
   CHECK(outline({}, 0).empty());
   CHECK(outline({{1, 2}}, 0).size() == 1);
   CHECK(outline(Points(5, Vector2d(1, 2)), 0).size() == 1);
   CHECK(outline({{1, 2}, {1, 2 + 1e-12}, {1 + 1e-12, 2}}, 1e-9).size() == 1);
 }
 
-TEST_CASE("what is left out of an outline lies within the tolerance of it") {
+TEST_CASE("omitted points of an outline are within the tolerance of it") {
   Random random(3);
   Points points;
   for (int i = 0; i < 2000; ++i) {
@@ -101,7 +101,7 @@ TEST_CASE("what is left out of an outline lies within the tolerance of it") {
   }
 }
 
-TEST_CASE("spread begins where it is told, keeps its distance, and stops at the most") {
+TEST_CASE("spread starts at the given point, keeps its distance, and respects its limit") {
   Random random(4);
   Points points;
   std::vector<int> others;
@@ -115,7 +115,7 @@ TEST_CASE("spread begins where it is told, keeps its distance, and stops at the 
   const auto apart = spread(points, 17, others, 0.3, 1000);
   for (size_t i = 0; i < apart.size(); ++i)
     for (size_t j = 0; j < i; ++j) CHECK((points[apart[i]] - points[apart[j]]).norm() > 0.3);
-  // and none that could have stayed was left out
+  // and no omitted point could have been kept
   for (const Vector2d& p : points)
     CHECK(std::any_of(apart.begin(), apart.end(),
                       [&](int i) { return (points[i] - p).norm() <= 0.3; }));

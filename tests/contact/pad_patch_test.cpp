@@ -1,4 +1,4 @@
-// Soft patches of pads: no wider than the pads are.
+// Soft patches of pads are no wider than the pads.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ constexpr double pad_modulus = 1.5e6;
 constexpr double springs = 0.003 / pad_modulus;  // compliance [m/Pa]
 using std::numbers::pi;
 
-/// Of an outline counter-clockwise about the origin, seen from above: a flat sole of rings of
-/// triangles at z = 0, walls and a lid above.
+/// A pad with the given outline, counter-clockwise about the origin as seen from above: a flat sole
+/// of rings of triangles at z = 0, with walls and a lid above.
 Mesh pad_of(const std::vector<Vector2d>& outline, double height, int rings) {
   Mesh mesh;
   const int n = static_cast<int>(outline.size());
@@ -68,7 +68,7 @@ std::vector<Vector2d> circle(double radius, int segments) {
   return out;
 }
 
-/// The patch of a contact at a place of the pad, in the frame of the floor; the pad is soft, and
+/// The patch of a contact at a point of the pad, in the frame of the floor; the pad is soft, and
 /// turned about z.
 SoftPatch patch_at(const Mesh& floor, const Mesh& pad, double turn, const Vector2d& place) {
   const Pose X_AB{Pose::turn(turn, Vector3d::UnitZ()).rotation, {0, 0, pad_gap}};
@@ -78,7 +78,7 @@ SoftPatch patch_at(const Mesh& floor, const Mesh& pad, double turn, const Vector
   return soft_patch(*soft_sites(Shape::make(floor), Shape::make(pad), X_AB, {}, soft, {touch})[0]);
 }
 
-/// all patches, of the contacts in the order in which they are found
+/// all patches, in the order in which the contacts are found
 std::vector<SoftPatch> patches_of(const Mesh& floor, const Mesh& pad, double turn) {
   const auto a = Shape::make(floor), b = Shape::make(pad);
   const Pose X_AB{Pose::turn(turn, Vector3d::UnitZ()).rotation, {0, 0, pad_gap}};
@@ -92,12 +92,12 @@ std::vector<SoftPatch> patches_of(const Mesh& floor, const Mesh& pad, double tur
   return out;
 }
 
-/// semi-axis of flat on flat, or of a cylinder of a radius on it along its axis
+/// semi-axis of two flat surfaces, or of a cylinder of a given radius on a flat, along its axis
 double blunt_axis(double force, double radius = 0.02) {
   return std::sqrt(2 * std::sqrt(force * springs / (pi * radius)) * radius);
 }
 
-/// semi-axes, the shorter first
+/// semi-axes, the shorter one first
 Vector2d axes_of(const SoftPatch& patch, double force) {
   const auto [a, b] = contact_ellipse(patch, force).semi_axes;
   return {std::min(a, b), std::max(a, b)};
@@ -112,7 +112,7 @@ double reach_of(const SoftPatch& patch, double force, const Vector3d& direction)
 
 }  // namespace
 
-TEST_CASE("a square pad on a plane has a circle no wider than itself, however it lies") {
+TEST_CASE("a square pad on a plane has a circle no wider than itself, for any orientation") {
   for (const double half : {0.002, 0.003, 0.0037, 0.005, 0.008, 0.015})
     for (const double turn : {0.0, 0.13, 0.4, pi / 4})
       for (const int rings : {1, 6})
@@ -121,12 +121,12 @@ TEST_CASE("a square pad on a plane has a circle no wider than itself, however it
           const Vector2d axes = axes_of(patch_at(test::floor_board(), pad, turn, {0, 0}), force);
           const double expected = std::min(half, blunt_axis(force));
           CHECK(axes[1] <= 1.0001 * expected);
-          // a pad much smaller than the patch counts by its moments, which are larger
+          // a pad much smaller than the patch is bounded by its moments, which are larger
           CHECK(axes[0] >= 0.985 * expected);
         }
 }
 
-TEST_CASE("the patch of a pad of 6 mm stays within 3 mm, wherever it is touched") {
+TEST_CASE("the patch of a pad of 6 mm stays within 3 mm, for any contact point") {
   Random random(1);
   const Mesh pad = pad_of(rectangle(0.003, 0.003), 0.004, 1);
   for (const SoftPatch& patch : patches_of(test::floor_board(), pad, 0.3)) {
@@ -140,13 +140,14 @@ TEST_CASE("the patch of a pad of 6 mm stays within 3 mm, wherever it is touched"
     const Vector3d x(std::cos(turn), std::sin(turn), 0), y(-x.y(), x.x(), 0);
     CHECK(reach_of(patch, 5, x) <= 1.0001 * 0.003);
     CHECK(reach_of(patch, 5, y) <= 1.0001 * 0.003);
-    // a corner is as narrow as the region that is near it, and the rays cut the others off
+    // at a corner, the patch is as narrow as the nearby region; rays bound it at the other sides
     CHECK(axes_of(patch, 5)[0] > 0.0022);
   }
 }
 
 TEST_CASE(
-    "a rectangle bounds each semi-axis by itself, and the torsion is less than all of it has") {
+    "a rectangle bounds each semi-axis separately, and the torsion radius is below that of its "
+    "full area") {
   for (const double half_x : {0.0015, 0.002, 0.003})
     for (const double half_y : {0.003, 0.006, 0.02})
       for (const double turn : {0.0, 0.2, 0.9})
@@ -159,9 +160,9 @@ TEST_CASE(
             CHECK(reach_of(patch, force, x) <= 1.0001 * std::min(half_x, blunt));
             CHECK(reach_of(patch, force, y) <= 1.0001 * std::min(half_y, blunt));
             CHECK(reach_of(patch, force, x) >= 0.98 * std::min(half_x, blunt));
-            // what is beyond the neighborhood of 3.5 mm is not sure to touch where a pad is narrow
+            // on a narrow pad, the area beyond the neighborhood of 3.5 mm is not certain to touch
             CHECK(reach_of(patch, force, y) >= 0.75 * std::min({half_y, blunt, patch.radius}));
-            // even pressure over the pad: mean distance from its middle, by sums
+            // even pressure over the pad: mean distance from its center, by summation
             double sum = 0;
             constexpr int steps = 40;
             for (int i = 0; i < steps; ++i)
@@ -171,7 +172,7 @@ TEST_CASE(
           }
 }
 
-TEST_CASE("a disc bounds its circle by its radius, in the middle and at its rim") {
+TEST_CASE("a disc bounds its circle by its radius, at the center and at its rim") {
   for (const double radius : {0.0025, 0.003, 0.004, 0.006, 0.01})
     for (const int segments : {24, 90})
       for (const double off : {0.0, 0.5, 0.95})
@@ -181,16 +182,17 @@ TEST_CASE("a disc bounds its circle by its radius, in the middle and at its rim"
           const double expected = std::min(radius, blunt_axis(force));
           CHECK(axes_of(patch, force)[1] <= 1.0001 * expected);
           CHECK(torsion_radius(patch, force) < 2 * radius / 3);
-          // seen from aside rays miss where it is widest, and near the rim half is not there
+          // off center, rays miss the widest part, and near the rim half of the neighborhood is
+          // missing
           if (off == 0) CHECK(axes_of(patch, force)[0] >= 0.98 * expected);
         }
 }
 
-TEST_CASE("in no direction is a patch wider than a pad of any outline, wherever it is touched") {
+TEST_CASE("a patch is in no direction wider than its pad, for any outline and contact point") {
   Random random(7);
   double widest = 0, narrowest = 2;
   for (int trial = 0; trial < test::cases(300); ++trial) {
-    // corners of an ellipse at uneven angles: convex, and around the origin
+    // corners on an ellipse at uneven angles: convex, and around the origin
     const int corners = 5 + trial % 6;
     const double size = random.uniform(0.0015, 0.008), ratio = random.uniform(0.4, 1);
     std::vector<Vector2d> outline;
@@ -214,7 +216,7 @@ TEST_CASE("in no direction is a patch wider than a pad of any outline, wherever 
       const double reach = reach_of(patch, force, {d.x(), d.y(), 0});
       widest = std::max(widest, reach / ((high - low) / 2));
     }
-    // and not much smaller than it may be
+    // and not much smaller than possible
     const Vector2d axes = axes_of(patch, force);
     narrowest = std::min(narrowest, std::sqrt(axes[0] * axes[1]) /
                                         std::min(blunt_axis(force), std::sqrt(ratio) * size));
@@ -223,7 +225,7 @@ TEST_CASE("in no direction is a patch wider than a pad of any outline, wherever 
   CHECK(narrowest > 0.5);
 }
 
-TEST_CASE("a pad on a large cylinder ends at its rim along the axis and across it") {
+TEST_CASE("a pad on a large cylinder is bounded by its rim along the axis and across it") {
   for (const double radius : {0.05, 0.1, 0.3})
     for (const double half : {0.002, 0.003, 0.006})
       for (const double turn : {0.0, 0.5}) {
@@ -231,7 +233,7 @@ TEST_CASE("a pad on a large cylinder ends at its rim along the axis and across i
             test::moved(test::rod(radius, 0.2, 720), Pose::translation({0, 0, -radius}));
         const SoftPatch patch =
             patch_at(floor, pad_of(rectangle(half, half, 4), 0.004, 4), turn, {0, 0});
-        // flat along the axis: the cylinder's own radius stands for it
+        // along the flat axis, the radius of the cylinder is used
         const double blunt = blunt_axis(5, radius);
         const Vector3d x(std::cos(turn), std::sin(turn), 0), y(-x.y(), x.x(), 0);
         for (const Vector3d& d : {x, y}) {
@@ -241,14 +243,14 @@ TEST_CASE("a pad on a large cylinder ends at its rim along the axis and across i
       }
 }
 
-TEST_CASE("no ellipse is wider than a small ball, nor a wider body the worse for its rim") {
+TEST_CASE("no ellipse is wider than a small ball, and a nearby rim does not reduce a wider patch") {
   const Mesh small = test::moved(test::icosphere(0.002, 4), Pose::translation({0, 0, 0.002}));
   CHECK(blunt_axis(5, 0.002) > 0.0022);
-  // leaning 73 degrees, its sheet ends
+  // up to a slope of 73 degrees, where the sheet of the ball ends
   const double axis = axes_of(patch_at(test::floor_board(), small, 0, {0, 0}), 5)[1];
   CHECK(axis < 0.002);
   CHECK(axis > 0.0018);
-  // on a plate whose rim is beyond the patch, or a half of it is over the rim: all of it
+  // on a plate whose rim is outside the patch, or cuts off a half of it: the full size
   const Mesh ball = test::moved(test::icosphere(0.02, 4), Pose::translation({0, 0, 0.02}));
   for (const double half : {0.0045, 0.006, 0.1})
     for (const double force : {0.1, 5.0}) {
@@ -260,14 +262,14 @@ TEST_CASE("no ellipse is wider than a small ball, nor a wider body the worse for
     }
 }
 
-TEST_CASE("what the rim cuts off makes the middle deeper: the pressure makes up the force") {
+TEST_CASE("the part cut off at a rim deepens the center, so that the pressure balances the force") {
   for (const double half : {0.0028, 0.003, 0.0035, 0.0039, 0.005})
     for (const double force : {1.0, 5.0, 12.0}) {
       const SoftPatch patch =
           patch_at(test::floor_board(), pad_of(rectangle(half, half), 0.004, 1), 0, {0, 0});
       const ContactEllipse e = contact_ellipse(patch, force);
       const double paraboloid = 0.5 * pi * e.semi_axes[0] * e.semi_axes[1] * e.pressure;
-      // wider than 80 % of its ellipse; what is narrower goes over into its even pressure
+      // pads wider than 80 % of their ellipse; narrower pads blend into even pressure
       if (1.15 * half > 0.82 * blunt_axis(force)) CHECK(paraboloid == doctest::Approx(force));
       CHECK(e.pressure == doctest::Approx(e.indentation / springs));
       CHECK(e.pressure >= 0.99 * force / (4 * half * half));
@@ -276,7 +278,7 @@ TEST_CASE("what the rim cuts off makes the middle deeper: the pressure makes up 
 
 namespace {
 
-/// sum of the depths of a wedge of 45 degrees within a disc around a point of its edge
+/// integral of the depth of a 45-degree wedge over a disc around a point of its edge
 double wedge_volume(double depth, double radius) {
   constexpr int steps = 2000;
   double sum = 0;
@@ -288,7 +290,7 @@ double wedge_volume(double depth, double radius) {
   return sum;
 }
 
-/// a cube on the floor, touched at a point of its own frame that is lowest
+/// a cube on the floor, with contact at the point of its own frame that is lowest
 SoftPatch cube_at(const Vector3d& down, const Vector3d& place) {
   const Pose turn = Pose::turn(shortest_rotation(down, -Vector3d::UnitZ()));
   const Mesh cube = test::moved(test::box(0.03, 0.03, 0.03), turn);
@@ -298,21 +300,21 @@ SoftPatch cube_at(const Vector3d& down, const Vector3d& place) {
 
 }  // namespace
 
-TEST_CASE("at a corner and an edge springs under the gap make up the force") {
+TEST_CASE("at corners and edges, the springs under the gap balance the force") {
   const SoftPatch corner = cube_at({1, 1, 1}, {0.015, 0.015, 0.015});
   const SoftPatch edge = cube_at({0, 1, 1}, {0.004, 0.015, 0.015});
   REQUIRE(corner.at_edge);
   REQUIRE(edge.at_edge);
   for (const double force : {0.05, 0.5, 5.0}) {
     const ContactEllipse at_corner = contact_ellipse(corner, force);
-    // cut at a depth d, the corner of a cube is a triangle of 3 sqrt(3) / 2 d^2
+    // at a depth d, the section of a cube's corner is a triangle of area 3 sqrt(3) / 2 d^2
     const double deep = std::cbrt(force * springs / (0.5 * std::sqrt(3.0)));
     CHECK(at_corner.indentation == doctest::Approx(deep).epsilon(0.04));
     CHECK(at_corner.pressure == doctest::Approx(at_corner.indentation / springs));
     const ContactEllipse at_edge = contact_ellipse(edge, force);
     CHECK(wedge_volume(at_edge.indentation, edge.radius) ==
           doctest::Approx(force * springs).epsilon(0.15));
-    // wider than what is sure to touch, as the model has it
+    // wider than the area that is certain to touch, according to the model
     CHECK(at_corner.indentation > at_corner.semi_axes[1]);
   }
 }
@@ -323,7 +325,7 @@ TEST_CASE("a pad much smaller than its patch is pressed evenly") {
       const Mesh square = pad_of(rectangle(half, half), 0.004, 1);
       const ContactEllipse e =
           contact_ellipse(patch_at(test::floor_board(), square, turn, {0, 0}), 5);
-      // sectors of 15 degrees instead of the corners: up to 2.3 % of the area
+      // sectors of 15 degrees approximate the corners: up to 2.3 % of the area
       CHECK(e.pressure == doctest::Approx(5 / (4 * half * half)).epsilon(0.025));
       const Mesh disc = pad_of(circle(half, 48), 0.004, 2);
       const ContactEllipse d =
@@ -332,18 +334,18 @@ TEST_CASE("a pad much smaller than its patch is pressed evenly") {
     }
 }
 
-TEST_CASE("a layer that is pressed in by more than its height is told") {
+TEST_CASE("an indentation beyond the height of the layer is reported") {
   const Mesh ball = test::moved(test::icosphere(0.02, 4), Pose::translation({0, 0, 0.02}));
   SoftPatch patch = patch_at(test::floor_board(), ball, 0, {0, 0});
   CHECK(!contact_ellipse(patch, 280).exceeds_layer);
   CHECK(contact_ellipse(patch, 290).exceeds_layer);  // sqrt(283 c / (pi 0.02)) = 3 mm
-  // two of them are as high together; the original knows that of the stiffer alone
+  // two layers add up their heights; the original uses that of the stiffer layer only
   patch.elastic_a = {.modulus = 0.5 * pad_modulus};
   CHECK(!contact_ellipse(patch, 290).exceeds_layer);
   CHECK(contact_ellipse(patch, 290, ModulusRule::larger).exceeds_layer);
 }
 
-TEST_CASE("a radius within which there is nothing to fit is refused") {
+TEST_CASE("a radius without points to fit is rejected") {
   const auto a = Shape::make(test::floor_board()), b = Shape::make(test::icosphere(0.01, 3));
   const Pose X_AB = Pose::translation({0, 0, pad_gap - b->bounds().low.z()});
   const auto site =

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double scale = 0.0035;  // [m]
 
-// points of z = height(x, y) over a disc, as a patch has them
+// points of z = height(x, y) over a disc, like the points of a patch
 std::vector<Vector3d> disc_of(const std::function<double(double, double)>& height) {
   std::vector<Vector3d> points;
   for (int i = -8; i <= 8; ++i)
@@ -21,7 +21,7 @@ std::vector<Vector3d> disc_of(const std::function<double(double, double)>& heigh
   return points;
 }
 
-// of the lower side of a ball whose middle is above the origin, tilted by an angle about y
+// height of the lower side of a ball whose center is above the origin, tilted by an angle about y
 double tilted_ball(double radius, double angle, double x, double y) {
   const double u = x - radius * std::sin(angle);
   return radius * std::cos(angle) - std::sqrt(radius * radius - u * u - y * y);
@@ -34,7 +34,7 @@ void check_curvatures(const SurfaceFit& fit, double first, double second, double
 
 }  // namespace
 
-TEST_CASE("balls, sockets and cylinders of any size are fitted exactly, however they are tilted") {
+TEST_CASE("balls, sockets and cylinders of any size and tilt are fitted exactly") {
   for (const double radius : {0.0045, 0.02, 0.5})
     for (const double angle : {0.0, 0.05, 0.15}) {
       const auto ball = [&](double x, double y) { return tilted_ball(radius, angle, x, y); };
@@ -46,20 +46,20 @@ TEST_CASE("balls, sockets and cylinders of any size are fitted exactly, however 
       const SurfaceFit along = fit_quadric(disc_of(rod), scale);
       check_curvatures(along, k, 0, rounding);
       CHECK(std::abs(along.directions.col(1).y()) == doctest::Approx(1));
-      // at the foot of the fit, not quite under the origin
+      // at the foot point of the fit, not exactly below the origin
       CHECK(std::abs(along.normal.x() - std::sin(angle)) < 0.002);
       CHECK(along.residual < 1e-9 * scale);
     }
 }
 
-TEST_CASE("a plane has no curvature, and its tilt is its normal") {
+TEST_CASE("a plane has no curvature, and its normal gives its tilt") {
   const auto plane = [](double x, double y) { return 1e-4 + 0.3 * x - 0.2 * y; };
   const SurfaceFit fit = fit_quadric(disc_of(plane), scale);
   check_curvatures(fit, 0, 0, 1e-6);
   CHECK((fit.normal - Vector3d(-0.3, 0.2, 1).normalized()).norm() < 1e-9);
 }
 
-TEST_CASE("the axes of a turned saddle are found, its hollow one negative") {
+TEST_CASE("the axes of a turned saddle are found, with a negative curvature along the hollow one") {
   for (const double angle : {0.0, 0.4, 1.5, 2.8}) {
     const double c = std::cos(angle), s = std::sin(angle);
     const auto saddle = [&](double x, double y) {
@@ -67,14 +67,15 @@ TEST_CASE("the axes of a turned saddle are found, its hollow one negative") {
       return 0.5 * (30 * u * u - 20 * v * v);
     };
     const SurfaceFit fit = fit_quadric(disc_of(saddle), scale);
-    // these are parabolas, which the fit takes for circles: off by some (k scale)^2 / 8
+    // the sections are parabolas, which the fit approximates by circles: an error of about (k
+    // scale)^2 / 8
     check_curvatures(fit, 30, -20, 0.05);
     CHECK(std::abs(fit.directions.col(0).dot(Vector3d(c, s, 0))) ==
           doctest::Approx(1).epsilon(1e-4));
   }
 }
 
-TEST_CASE("the jet and the quadric are each other's oracle") {
+TEST_CASE("the jet and the quadric agree with each other") {
   if (!has_fit_jet()) {
     CHECK_THROWS_WITH_AS(fit_jet({}, 1),
                          "contact patch: this build has no CGAL; use the fit 'quadric'", Error);
@@ -93,7 +94,8 @@ TEST_CASE("the jet and the quadric are each other's oracle") {
     };
     const auto points = disc_of(height);
     const SurfaceFit ours = fit_quadric(points, scale), theirs = fit_jet(points, scale);
-    // ours takes parabolas for circles: (k scale)^2 / 4 of k is 1.3 % at most, and it tilts
+    // the quadric approximates parabolas by circles: an error of (k scale)^2 / 4 of k, at most 1.3
+    // %, and a tilt
     const double tolerance = 0.02 * std::max(std::abs(k1), std::abs(k2));
     CHECK((ours.curvatures - theirs.curvatures).cwiseAbs().maxCoeff() < tolerance);
     CHECK(ours.normal.dot(theirs.normal) > 1 - 1e-5);
@@ -104,8 +106,8 @@ TEST_CASE("the jet and the quadric are each other's oracle") {
                        "contact patch: a jet needs 15 points at least, got 14", Error);
 }
 
-TEST_CASE("what points do not tell stays flat, and too few are refused") {
-  // a row along x says nothing about y
+TEST_CASE("directions without information stay flat, and too few points are rejected") {
+  // a row along x contains no information about y
   std::vector<Vector3d> row;
   for (int i = -8; i <= 8; ++i)
     row.push_back({i * scale / 8, 0, tilted_ball(0.02, 0, i * scale / 8, 0)});
@@ -114,7 +116,7 @@ TEST_CASE("what points do not tell stays flat, and too few are refused") {
                        "contact patch: a surface needs 3 points at least, got 2", Error);
 }
 
-TEST_CASE("a ridge leaves a residual, a ball none") {
+TEST_CASE("a ridge leaves a residual, and a ball does not") {
   const auto ridge = [](double x, double) { return std::abs(x); };
   const SurfaceFit fit = fit_quadric(disc_of(ridge), scale);
   CHECK(fit.residual > 0.2 * fit.relief);

@@ -19,7 +19,7 @@ PatchRings rings_of(const Mesh& below, const Mesh& above, double turn, double ra
                     double depth) {
   const auto a = Shape::make(below), b = Shape::make(above);
   const Pose X = Pose::turn(turn, Vector3d::UnitZ());
-  // a sees the plane from above: half a turn about x
+  // in the sheet's frame of a, the body is below: half a turn about x
   const Pose half = Pose::turn(pi, Vector3d::UnitX());
   const std::vector<Vector3d> site = {Vector3d::Zero()};
   PatchSheet sheet_a(*a, half * X, site, radius), sheet_b(*b, X, site, radius);
@@ -35,9 +35,11 @@ double area_of(const std::vector<GapPlace>& places, double widest_gap) {
 
 }  // namespace
 
-TEST_CASE("places stand for the disc, those with a gap for where both surfaces are") {
+TEST_CASE(
+    "the areas of places sum to the disc, and those with a gap to the part that both surfaces "
+    "cover") {
   for (const double turn : {0.0, 0.4, 2.0}) {
-    // a box of 30 mm, at the middle, an edge and a corner of its face
+    // a box of 30 mm, touched at the center, an edge and a corner of its face
     const auto box_at = [](double x, double y) {
       return test::moved(test::box(0.03, 0.03, 0.03), Pose::translation({x, y, 0.015}));
     };
@@ -54,13 +56,13 @@ TEST_CASE("places stand for the disc, those with a gap for where both surfaces a
     check(box_at(0, 0.015), 0.5);
     check(box_at(0.015, 0.015), 0.25);
   }
-  // a post that is narrower than the disc: circles cross its rim at an angle
+  // a post narrower than the disc: circles cross its rim at an angle
   const Mesh post = test::moved(test::box(0.002, 0.002, 0.01), Pose::translation({0, 0, 0.005}));
   const PatchRings rings = rings_of(test::floor_board(), post, 0.3, 0.004, 1e-4);
   CHECK(area_of(rings.gap, 1) == doctest::Approx(4e-6).epsilon(1e-3));
 }
 
-TEST_CASE("paraboloids meet over ellipses, and depths sum to the volume under them") {
+TEST_CASE("paraboloids overlap in ellipses, and depths sum to the volume under them") {
   const auto bowl = [](double x, double y) { return 0.5 * (50 * x * x + 200 * y * y); };
   const Mesh above = test::graph(bowl, 0.01, 60);
   for (const double depth : {1e-4, 2e-4}) {
@@ -74,7 +76,7 @@ TEST_CASE("paraboloids meet over ellipses, and depths sum to the volume under th
     const double volume = pi / 2 * depth * 2 * depth / std::sqrt(50.0 * 200);
     CHECK(depth_of(rings.gap, volume) == doctest::Approx(depth).epsilon(0.02));
   }
-  // circles instead of the paraboloids
+  // circles instead of paraboloids
   const PatchRings rings = rings_of(test::floor_board(), above, 0, 0.005, 1e-4);
   const auto round = round_gap(rings.gap, {200, -1}, Matrix2d::Identity());
   for (size_t i = 0; i < round.size(); ++i) {
@@ -87,7 +89,7 @@ TEST_CASE("paraboloids meet over ellipses, and depths sum to the volume under th
   }
 }
 
-TEST_CASE("where nothing meets there are no moments and no depth") {
+TEST_CASE("without overlap there are no moments and no depth") {
   std::vector<GapPlace> none(3, {Vector2d(1, 0), 1, std::numeric_limits<double>::infinity()});
   CHECK(meeting_moments(none, 0.1).isZero());
   CHECK(depth_of(none, 1) == 0);

@@ -24,14 +24,14 @@ Matrix2d turned_axes(double turn) { return Rotation2Dd(turn).toRotationMatrix();
 
 }  // namespace
 
-TEST_CASE("an ellipse with room for it stays as it is, to the bit") {
+TEST_CASE("an ellipse within the width is bit-exactly unchanged") {
   const std::array<double, 2> axes = {0.003, 0.004};
   CHECK(make_room(room_of({0.005, 0.006}, std::numbers::pi / 2, 0.3), turned_axes(0.1), axes,
                   true) == axes);
   CHECK(make_room({}, turned_axes(0.1), axes, true) == axes);
 }
 
-TEST_CASE("a rectangle bounds each semi-axis by itself") {
+TEST_CASE("a rectangle bounds each semi-axis separately") {
   for (const double turn : {0.0, 0.4, 2.0}) {
     const PatchWidth room = room_of({2, 3}, std::numbers::pi / 2, turn);
     const auto both = make_room(room, turned_axes(turn), {4, 4}, true);
@@ -40,14 +40,14 @@ TEST_CASE("a rectangle bounds each semi-axis by itself") {
     const auto one = make_room(room, turned_axes(turn), {4, 2.5}, true);
     CHECK(one[0] == doctest::Approx(2).epsilon(1e-5));
     CHECK(one[1] == doctest::Approx(2.5).epsilon(1e-5));
-    // axes that are any do not grow
+    // arbitrary axes do not grow
     const auto circle = make_room(room, turned_axes(turn), {4, 4}, false);
     CHECK(circle[0] == doctest::Approx(2));
     CHECK(circle[1] == doctest::Approx(2));
   }
 }
 
-TEST_CASE("in a regular polygon a circle is one, whichever way its axes lie") {
+TEST_CASE("within a regular polygon, a circle is bounded to the inscribed circle for any axes") {
   for (const int sides : {2, 3, 4, 6})
     for (const double turn : {0.0, 0.2, 0.5, 1.0}) {
       const PatchWidth room = room_of(std::vector<double>(sides, 1.0), std::numbers::pi / sides, 0);

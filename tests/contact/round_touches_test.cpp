@@ -1,4 +1,4 @@
-// Contacts of round solids, against places that drawings give.
+// Contacts of round solids, compared with contact points from drawings.
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -10,7 +10,7 @@ namespace clench::test {
 
 using Eigen::Vector3d;
 
-// A coarse prism or ball, whose contacts must follow from its formula.
+// A coarse prism or ball; exact contacts must follow from the formula of the round solid.
 static ShapePtr solid(const Round& round, const Pose& X = {}) {
   Mesh mesh = ball(1, 6, 12);
   for (Vector3d& p : mesh.vertices) p = X * support(round, p.normalized());
@@ -31,7 +31,8 @@ static Pose lying(double height) {
           {0.013, 0.007, height + can_gap}};
 }
 
-TEST_CASE("a cylinder on its side touches a slab at the ends of a line, on its cap at its rim") {
+TEST_CASE(
+    "a cylinder on its side touches a slab at the ends of a line, and on its cap along the rim") {
   const auto can = solid(Round::cylinder_of(0.02, 0.06));
   const auto along = contact_set(*slab(), *can, lying(0.02));
   CHECK(along.size() == 2);
@@ -58,8 +59,8 @@ TEST_CASE("a cylinder on its side touches a slab at the ends of a line, on its c
 }
 
 TEST_CASE(
-    "a tip at an edge of a box is pushed away from the edge, over a seam of a face along its "
-    "normal") {
+    "the normal of a ball at an edge of a box points away from the edge, and over the diagonal of "
+    "a face along the face normal") {
   const auto tip = solid(Round::ball(0.01));
   // beyond the slab's edge x = 0.5, on the line at 30 degrees
   const Vector3d outward(std::sin(0.5), 0, std::cos(0.5));
@@ -68,7 +69,7 @@ TEST_CASE(
   REQUIRE(edge.size() == 1);
   CHECK((edge[0].normal_b - outward).norm() < 1e-9);
   CHECK(edge[0].feature_a.kind == Feature::edge);
-  // the slab's top is cut along a diagonal
+  // the slab's top is divided along a diagonal
   Random random(7);
   for (int i = 0; i < 200; ++i) {
     const double x = random.uniform(-0.4, 0.4),
@@ -83,7 +84,9 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a ball in a corner of two boxes touches both, one on two rails touches both rails") {
+TEST_CASE(
+    "a ball in a corner of two boxes touches both, and a cylinder across two rails touches both "
+    "rails") {
   const auto ball_ = solid(Round::ball(0.02));
   Mesh corner = joined(moved(box(0.2, 0.2, 0.1), Pose::translation({0, 0, -0.05})),
                        moved(box(0.1, 0.2, 0.2), Pose::translation({-0.05, 0, 0})));
@@ -103,7 +106,7 @@ TEST_CASE("a ball in a corner of two boxes touches both, one on two rails touche
   CHECK(high == doctest::Approx(0.051));
 }
 
-TEST_CASE("cans that stand on each other touch along the outline of what both caps share") {
+TEST_CASE("stacked cans touch along the outline of the overlap of their caps") {
   const auto can = solid(Round::cylinder_of(0.03, 0.1));
   const double aside = 0.02, across = std::sqrt(0.03 * 0.03 - aside * aside / 4);
   const auto touches = contact_set(*can, *can, Pose::translation({aside, 0, 0.1 + can_gap}));
@@ -119,7 +122,7 @@ TEST_CASE("cans that stand on each other touch along the outline of what both ca
   // an outline of more than eight points is reduced to eight
   CHECK(low.x() < -0.007);
   CHECK(high.x() > 0.027);
-  // crossed on their sides: one point; side by side: the ends of the line that they share
+  // crossed on their sides: one point; side by side: the ends of the shared line
   const auto crossed =
       contact_set(*can, *can,
                   Pose{Eigen::Quaterniond(Eigen::AngleAxisd(1.2, Vector3d::UnitX())),
@@ -130,7 +133,7 @@ TEST_CASE("cans that stand on each other touch along the outline of what both ca
   CHECK(std::abs(std::abs(beside[0].p_a.z() - beside[1].p_a.z()) - 0.06) < 1e-6);
 }
 
-TEST_CASE("contacts of round pieces do not depend on the order of shapes or on where they stand") {
+TEST_CASE("contacts of round pieces do not depend on the order of shapes or on their position") {
   Random random(9);
   int found = 0;
   for (int i = 0; i < 300; ++i) {

@@ -20,7 +20,7 @@ constexpr double gap = 5e-5;  // within the contact threshold [m]
 constexpr double rubber = 1.5e6;
 using std::numbers::pi;
 
-// the patch of the first site of a rubber body b on a rigid a
+// the patch of the first site of a rubber body b on a rigid body a
 SoftPatch press(const Mesh& a, const Mesh& b, const Pose& X_AB, const PatchOptions& options = {},
                 int* site_count = nullptr) {
   const auto shape_a = Shape::make(a), shape_b = Shape::make(b);
@@ -35,7 +35,7 @@ SoftPatch press(const Mesh& a, const Mesh& b, const Pose& X_AB, const PatchOptio
   return patch;
 }
 
-// a body turned, then put on the floor
+// a body turned, then placed on the floor
 SoftPatch drop(const Mesh& body, const Quaterniond& turn = Quaterniond::Identity(),
                const Mesh& floor = test::floor_board()) {
   const Mesh turned = test::moved(body, Pose::turn(turn));
@@ -54,10 +54,10 @@ double socket(double radius, double x, double y) {
 
 }  // namespace
 
-TEST_CASE("a ball on a plane has its own radius, whatever its mesh and its turn") {
+TEST_CASE("a ball on a plane has its own radius, for any mesh and orientation") {
   Random random(1);
-  // edges of 11, 5.5, 2.8, 1.4, 0.7 mm beside a neighborhood of 3.5 mm: the error falls by more
-  // than four with each halving
+  // edges of 11, 5.5, 2.8, 1.4, 0.7 mm and a neighborhood of 3.5 mm: each halving divides the error
+  // by more than four
   const double tolerance[] = {0.2, 0.03, 0.004, 5e-4, 1e-4};
   for (int subdivisions = 1; subdivisions <= 5; ++subdivisions)
     for (int trial = 0; trial < test::cases(10); ++trial) {
@@ -70,7 +70,7 @@ TEST_CASE("a ball on a plane has its own radius, whatever its mesh and its turn"
     check_radii(drop(test::ball(0.02, 20, 40), test::random_turn(random)), 0.02, 0.02, 0.005);
 }
 
-TEST_CASE("a ball's size does not matter, even where it is smaller than the neighborhood") {
+TEST_CASE("the size of a ball does not matter, even below that of the neighborhood") {
   Random random(2);
   for (const double radius : {0.002, 0.003, 0.005, 0.01, 0.05})
     check_radii(drop(test::icosphere(radius, 4), test::random_turn(random)), radius, radius, 0.002);
@@ -81,12 +81,12 @@ TEST_CASE("a cylinder on a plane has its radius, and a flat direction along its 
     for (const double turn : {0.0, 0.05, 0.3}) {
       const Quaterniond about_x = Pose::turn(turn, Vector3d::UnitX()).rotation;
       const SoftPatch patch = drop(test::rod(0.015, 0.06, segments), about_x);
-      // long triangles without a vertex near the middle; 16 segments are 22 degrees each
+      // long triangles without a vertex near the center; 16 segments are 22 degrees each
       check_radii(patch, 0.015, 0.02, segments < 24 ? 0.02 : 0.003);
       CHECK(patch.flat == std::array{false, true});
       CHECK(std::abs(patch.directions.col(1).x()) == doctest::Approx(1).epsilon(1e-4));
     }
-  // what stands for flat is no less than the curved one
+  // the value used for flat is no smaller than the curved one
   check_radii(drop(test::rod(0.03, 0.06, 64)), 0.03, 0.03, 0.003);
 }
 
@@ -96,7 +96,8 @@ TEST_CASE("a torus on its side has the radii of its tube and its ring") {
   check_radii(drop(test::torus(0.03, 0.01, 96, 48), upright), 0.01, 0.04, 0.005);
 }
 
-TEST_CASE("a ball in a saddle touches with the sums of curvatures, hollow ones negative") {
+TEST_CASE(
+    "a ball in a saddle has the sums of curvatures, with negative ones for hollow directions") {
   const auto saddle = [](double x, double y) { return -0.5 * (30 * x * x - 20 * y * y) - gap; };
   for (const int cells : {12, 30, 80})
     for (const double jitter : {0.0, 0.3}) {
@@ -109,7 +110,7 @@ TEST_CASE("a ball in a saddle touches with the sums of curvatures, hollow ones n
     }
 }
 
-TEST_CASE("a ball in a socket touches with the difference of curvatures, displaced too") {
+TEST_CASE("a ball in a socket has the difference of curvatures, also when displaced") {
   const auto cup = [](double x, double y) { return socket(0.025, x, y) - gap; };
   for (const int cells : {40, 100})
     for (const double lean : {0.0, 0.15, 0.3}) {
@@ -117,13 +118,13 @@ TEST_CASE("a ball in a socket touches with the difference of curvatures, displac
       const Vector3d down(std::sin(lean), 0, -std::cos(lean));
       const SoftPatch patch = press(hollow, test::icosphere(0.02, 4),
                                     Pose::translation(Vector3d(0, 0, 0.025) + 0.005 * down));
-      // 1 / (50 - 40): errors of the curvatures count five times
+      // 1 / (50 - 40): errors of the curvatures are amplified by five
       check_radii(patch, 0.1, 0.1, 0.02);
       CHECK(patch.surfaces[0].curvatures.maxCoeff() < -39);
     }
 }
 
-TEST_CASE("two crossing cylinders touch as Hertz has it") {
+TEST_CASE("two crossing cylinders touch as in Hertz's theory") {
   const double r1 = 0.01, r2 = 0.02;
   for (const double angle : {0.4, 0.7, pi / 2}) {
     const Pose X_AB{Pose::turn(angle, Vector3d::UnitZ()).rotation, {0, 0, r1 + r2 + gap}};
@@ -133,12 +134,12 @@ TEST_CASE("two crossing cylinders touch as Hertz has it") {
     const double spread = 0.5 * std::sqrt(w * w + y * y + 2 * w * y * std::cos(2 * angle));
     const double second = 1 / (sum - spread);
     CHECK(std::abs(patch.relative_radii[0] * (sum + spread) - 1) < 0.002);
-    // 1 of 1000 of the curvatures, in their difference
+    // 1 / 1000 of the curvatures, in their difference
     CHECK(std::abs(1 / second - 1 / patch.relative_radii[1]) < 1e-3 * (w + y));
   }
 }
 
-TEST_CASE("faces are flat however they are cut, and a thin plate has no far side") {
+TEST_CASE("faces are flat for any triangulation, and the far side of a thin plate does not count") {
   const auto flat = [](double, double) { return -gap; };
   Random random(3);
   for (const int cells : {1, 3, 10, 60}) {
@@ -151,7 +152,7 @@ TEST_CASE("faces are flat however they are cut, and a thin plate has no far side
   const SoftPatch on_plate = drop(test::icosphere(0.02, 4), test::random_turn(random), plate);
   CHECK(on_plate.surfaces[0].residual < 1e-9);
   for (const Vector3d& p : on_plate.points[0]) CHECK(std::abs(p.z()) < 1e-9);
-  // flat on flat: the radius that stands for none
+  // flat on flat: the radius that represents flat surfaces
   const SoftPatch block = drop(test::box(0.1, 0.1, 0.1));
   check_radii(block, 0.02, 0.02, 1e-12);
   CHECK(block.flat == std::array{true, true});
@@ -160,7 +161,7 @@ TEST_CASE("faces are flat however they are cut, and a thin plate has no far side
               0.05, 0.05, 1e-12);
 }
 
-TEST_CASE("a wide flat face stays flat beside a finely rounded edge") {
+TEST_CASE("a wide flat face stays flat next to a finely rounded edge") {
   // a prism: a flat bottom of 60 mm between quarter rounds of 3 mm in steps of 22 degrees
   Mesh mesh;
   std::vector<Vector2d> outline;
@@ -186,7 +187,7 @@ TEST_CASE("a wide flat face stays flat beside a finely rounded edge") {
   CHECK(patch.surfaces[1].curvatures.cwiseAbs().maxCoeff() < 0.01);
 }
 
-TEST_CASE("patches turn and move with the bodies, and do not care which of them comes first") {
+TEST_CASE("patches turn and move with the bodies, and do not depend on the order of the bodies") {
   Random random(4);
   for (int trial = 0; trial < 10; ++trial) {
     const Mesh lower = test::rod(0.012, 0.05, 40), upper = test::torus(0.02, 0.008, 60, 30);
@@ -198,7 +199,7 @@ TEST_CASE("patches turn and move with the bodies, and do not care which of them 
     const Pose X = test::random_pose(random, 1), Y = test::random_pose(random, 1);
     const SoftPatch again =
         press(test::moved(lower, X), test::moved(upper, Y), X * X_AB * Y.inverse());
-    // the lattice lies another way, which tells on the facets alone
+    // the sampling lattice has another orientation, which matters for facets only
     check_radii(again, patch.relative_radii[0], patch.relative_radii[1], 0.003);
     const SoftPatch swapped = press(upper, lower, X_AB.inverse());
     check_radii(swapped, patch.relative_radii[0], patch.relative_radii[1], 0.003);
@@ -207,7 +208,7 @@ TEST_CASE("patches turn and move with the bodies, and do not care which of them 
   }
 }
 
-TEST_CASE("the order of contacts does not matter, to the bit") {
+TEST_CASE("the order of contacts does not matter, bit-exactly") {
   const auto a = Shape::make(test::moved(
       test::graph([](double x, double y) { return socket(0.025, x, y) - gap; }, 0.012, 30),
       Pose()));
@@ -226,7 +227,7 @@ TEST_CASE("the order of contacts does not matter, to the bit") {
   CHECK(torsion_radius(one, 5) == torsion_radius(two, 5));
 }
 
-TEST_CASE("contacts share a patch where their neighborhoods overlap and look the same way") {
+TEST_CASE("contacts share a patch if their neighborhoods overlap and their normals are similar") {
   int sites = 0;
   press(test::floor_board(), test::box(0.1, 0.1, 0.1), Pose::translation({0, 0, 0.05 + gap}), {},
         &sites);
@@ -235,7 +236,7 @@ TEST_CASE("contacts share a patch where their neighborhoods overlap and look the
                                 Pose::translation({0, 0, 0.001 + gap}), {}, &sites);
   CHECK(sites == 1);
   CHECK(small.center_A.head<2>().norm() < 1e-9);
-  // in a right-angled groove a small ball has two
+  // in a right-angled groove a small ball has two patches
   const double h = std::sqrt(2.0) * (0.003 + gap);
   const auto groove = [](double x, double) { return std::abs(x); };
   press(test::graph(groove, 0.02, 40), test::icosphere(0.003, 5), Pose::translation({0, 0, h}), {},
@@ -251,10 +252,10 @@ SoftPatch drop_edge(const Mesh& body) {
   return drop(body, shortest_rotation(Vector3d(0, 1, 1), -Vector3d::UnitZ()));
 }
 
-// of flat surfaces on each other, rubber at 5 N
+// of two flat surfaces, rubber at 5 N
 const double flat_indentation = std::sqrt(5 * 0.003 / (rubber * pi * 0.02));
 
-// a ball against the edge of a board, its normal leaning from that of the upper face
+// a ball against the edge of a board, its normal inclined to that of the upper face
 SoftPatch roll(double angle, const Mesh& ball) {
   const Vector3d up(0, std::sin(angle), std::cos(angle));
   return press(test::floor_board(), ball,
@@ -269,13 +270,14 @@ TEST_CASE("a corner touches as wide as it is deep, an edge over a strip as wide"
   CHECK(!face.at_edge);
   CHECK(edge.at_edge);
   CHECK(corner.at_edge);
-  // cut at a depth d, the corner of a cube is a triangle of sides sqrt(6) d, whose ellipse has the
-  // semi-axes d; the rays cut its three tips off
+  // at a depth d, the section of a cube's corner is a triangle of sides sqrt(6) d, whose ellipse
+  // has the semi-axes d; the rays cut off its three tips
   const ContactEllipse at_corner = contact_ellipse(corner, 5), at_edge = contact_ellipse(edge, 5);
   for (const double a : at_corner.semi_axes)
     CHECK(a == doctest::Approx(flat_indentation).epsilon(0.12));
-  // the strip |y| < d to the end of the neighborhood is one of 2 d / sqrt(3) by 2 radius /
-  // sqrt(3), the rhomb in it one of sqrt(2/3) d by sqrt(2/3) radius; the rays see something between
+  // the strip |y| < d up to the end of the neighborhood has the semi-axes 2 d / sqrt(3) and 2
+  // radius / sqrt(3), the rhombus in it sqrt(2/3) d and sqrt(2/3) radius; the rays give a value in
+  // between
   const std::array<double, 2> size = {flat_indentation, edge.radius};
   for (int i = 0; i < 2; ++i) {
     CHECK(at_edge.semi_axes[i] > std::sqrt(2.0 / 3) * size[i]);
@@ -283,14 +285,14 @@ TEST_CASE("a corner touches as wide as it is deep, an edge over a strip as wide"
   }
   CHECK(torsion_radius(edge, 5) < 0.3 * torsion_radius(face, 5));
   CHECK(torsion_radius(corner, 5) < 0.11 * torsion_radius(face, 5));
-  // a cone as sharp on a half-space would touch more widely, by Sneddon (1965), and the mattress
-  // under the corner even more: this much is sure
+  // a cone equally sharp on a half-space would touch more widely, by Sneddon (1965), and the
+  // mattress under the corner even more: this is a lower bound
   const double steepness = std::sqrt(pi / (1.5 * std::sqrt(3.0)));  // of the cone with its sections
   const double half_space = std::sqrt(2 * 5 / (pi * rubber * steepness));
   const double mattress = std::cbrt(5 * 0.003 / rubber / (0.5 * std::sqrt(3.0))) / steepness;
   CHECK(at_corner.semi_axes[1] < half_space);
   CHECK(half_space < mattress);
-  // the rim of a plate of 2 mm is an ellipse hardly wider than it
+  // on the rim of a plate of 2 mm, the patch is an ellipse hardly wider than the plate
   const SoftPatch rim = drop(test::box(0.1, 0.002, 0.03));
   const auto axes = contact_ellipse(rim, 5).semi_axes;
   CHECK(std::min(axes[0], axes[1]) < 0.0018);
@@ -298,8 +300,7 @@ TEST_CASE("a corner touches as wide as it is deep, an edge over a strip as wide"
 }
 
 TEST_CASE(
-    "sharp ones stay sharp at any force and stiffness, and resist more when they are pressed "
-    "harder") {
+    "sharp contacts stay sharp at any force and stiffness, and resist more when pressed harder") {
   const Mesh edge =
       test::moved(cube, Pose::turn(shortest_rotation(Vector3d(0, 1, 1), -Vector3d::UnitZ())));
   const Pose X = Pose::translation({0, 0, gap + 0.015 * std::sqrt(2.0)});
@@ -322,14 +323,15 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("torsion falls by and by as a ball rolls from a face over an edge, and rises again") {
+TEST_CASE(
+    "torsion decreases gradually as a ball rolls from a face over an edge, and increases again") {
   const Mesh ball = test::icosphere(0.02, 4);
   const double face = torsion_radius(roll(0, ball), 5);
   double before = face;
   std::array<double, 91> radii;
   for (int degree = 0; degree <= 90; ++degree) {
     radii[degree] = torsion_radius(roll(degree * pi / 180, ball), 5);
-    // the steepest: at 17 degrees the other face comes into the sheet
+    // steepest change: at 17 degrees the other face enters the sheet
     CHECK(radii[degree] > 0.75 * before);
     CHECK(0.75 * radii[degree] < before);
     before = radii[degree];
@@ -340,25 +342,25 @@ TEST_CASE("torsion falls by and by as a ball rolls from a face over an edge, and
     CHECK(radii[degree] == doctest::Approx(radii[90 - degree]).epsilon(0.05));
   CHECK(radii[45] < 0.3 * face);
   CHECK(radii[90] == doctest::Approx(face).epsilon(1e-3));
-  // and nothing is lost where a ball nears the edge on the face: its middle still touches
+  // a ball that approaches the edge on the face loses nothing: its center still touches
   for (const double y : {0.08, 0.096, 0.098, 0.099, 0.1})
     CHECK(torsion_radius(press(test::floor_board(), ball, Pose::translation({0, y, 0.02 + gap})),
                          5) == doctest::Approx(face).epsilon(1e-3));
 }
 
-TEST_CASE("round bodies of coarse facets are not sharp, rounded edges are") {
+TEST_CASE("round bodies with coarse facets are not sharp, and edges with a small radius are") {
   Random random(8);
   for (const int subdivisions : {1, 2})
     for (int trial = 0; trial < 20; ++trial)
       CHECK(!drop(test::icosphere(0.02, subdivisions), test::random_turn(random)).at_edge);
-  // facets of 22 to 36 degrees, on one of them, on an edge between two, and between
+  // facets of 22 to 36 degrees; the contact is on a facet, on an edge, and in between
   for (const int segments : {10, 12, 16})
     for (const double part : {0.0, 0.3, 0.5}) {
       const double angle = 2 * pi * part / segments;
       CHECK(!drop(test::rod(0.009, 0.06, segments), Pose::turn(angle, Vector3d::UnitX()).rotation)
                  .at_edge);
     }
-  // an edge rounded by 0.3 mm is one, of 20 mm none
+  // an edge rounded by 0.3 mm is sharp, one rounded by 20 mm is not
   const auto prism = [](double round) {
     Mesh mesh;
     const int steps = 12;
@@ -386,7 +388,7 @@ TEST_CASE("round bodies of coarse facets are not sharp, rounded edges are") {
   CHECK(torsion_radius(drop(prism(0.0003)), 5) < 0.5 * torsion_radius(drop(prism(0.02)), 5));
 }
 
-TEST_CASE("a radius beyond 1 m goes over into that of flat surfaces, without a step") {
+TEST_CASE("radii beyond 1 m blend into that of flat surfaces, without a jump") {
   double before = 0;
   const auto radius = [](double r) {
     const auto dome = [&](double x, double y) { return -0.5 * (x * x + y * y) / r - gap; };
@@ -398,7 +400,7 @@ TEST_CASE("a radius beyond 1 m goes over into that of flat surfaces, without a s
     if (r < 0.98) check_radii(patch, r, r, 1e-3);
     if (r > 2.05) check_radii(patch, 0.02, 0.02, 1e-9);
     CHECK(patch.flat[0] == (r > 1));
-    // 2 % of a curvature between 1 and 1/2 are 2 to 4 % of the way, which is a factor of 50
+    // 2 % of a curvature between 1 and 1/2 are 2 to 4 % of the blend, which spans a factor of 50
     if (before > 0)
       CHECK(std::abs(std::log(patch.relative_radii[0] / before)) < 0.04 * std::log(50) + 0.01);
     before = patch.relative_radii[0];
@@ -423,7 +425,7 @@ SoftPatch paraboloid(double r1, double r2, const Elasticity& a, const Elasticity
 
 }  // namespace
 
-TEST_CASE("a rubber ball of 20 mm on a rigid plane at 5 N is the mattress formula") {
+TEST_CASE("a rubber ball of 20 mm on a rigid plane at 5 N agrees with the mattress formula") {
   const SoftPatch patch = drop(test::icosphere(0.02, 5));
   const double delta = std::sqrt(5 * 0.003 / (rubber * pi * 0.02));
   const ContactEllipse e = contact_ellipse(patch, 5);
@@ -435,7 +437,7 @@ TEST_CASE("a rubber ball of 20 mm on a rigid plane at 5 N is the mattress formul
   CHECK(torsion_radius(patch, 0) == 0);
 }
 
-TEST_CASE("the ellipse and its torsion are what springs under a paraboloid do") {
+TEST_CASE("the ellipse and its torsion equal those of springs under a paraboloid") {
   for (const double ratio : {1.0, 2.0, 4.0}) {
     const double r1 = 0.02, r2 = ratio * r1, force = 5, stiffness = rubber / 0.003;
     const SoftPatch patch = paraboloid(r1, r2, {}, {.modulus = rubber});
@@ -450,7 +452,7 @@ TEST_CASE("the ellipse and its torsion are what springs under a paraboloid do") 
         torque += stiffness * depth * std::hypot(x, y) * step * step;
       }
     CHECK(sum == doctest::Approx(force).epsilon(1e-3));
-    // exact for a circle; the mean of the semi-axes falls short for long ellipses, by 9 % at 1:2
+    // exact for a circle; the mean of the semi-axes is too small for long ellipses, by 9 % at 1:2
     const double radius = torsion_radius(patch, force);
     CHECK(radius <= torque / sum * 1.001);
     CHECK(radius >= torque / sum * (1 - 0.09 * (std::sqrt(ratio) - 1) - 1e-3));
@@ -458,7 +460,7 @@ TEST_CASE("the ellipse and its torsion are what springs under a paraboloid do") 
 }
 
 TEST_CASE(
-    "two soft bodies give way one after the other, where the original took the stiffer alone") {
+    "two soft bodies yield as springs in series, while the original uses the stiffer body only") {
   const Elasticity a{.modulus = 1e6, .layer = 0.004, .poisson = 0.3};
   const Elasticity b{.modulus = 2e6, .layer = 0.003};
   const SoftPatch both = paraboloid(0.02, 0.02, a, b);
@@ -467,7 +469,7 @@ TEST_CASE(
         doctest::Approx(std::sqrt(5 * compliance / (pi * 0.02))));
   const double stiffer = std::sqrt(5 * 0.003 / (2e6 * pi * 0.02));
   CHECK(contact_ellipse(both, 5, ModulusRule::larger).indentation == doctest::Approx(stiffer));
-  // one alone: both rules agree
+  // one soft body: both rules agree
   const SoftPatch one = paraboloid(0.02, 0.02, {}, b);
   CHECK(contact_ellipse(one, 5).indentation == doctest::Approx(stiffer));
   CHECK(contact_ellipse(one, 5, ModulusRule::larger).indentation == doctest::Approx(stiffer));
@@ -486,7 +488,7 @@ TEST_CASE("the two fits agree on real patches") {
   }
 }
 
-TEST_CASE("whatever the meshes are, a patch is numbers") {
+TEST_CASE("a patch has finite numbers for any meshes") {
   Random random(6);
   int sites = 0;
   for (int trial = 0; trial < 200; ++trial) {
@@ -496,7 +498,7 @@ TEST_CASE("whatever the meshes are, a patch is numbers") {
                                    : test::scaled(test::soup(random, 40, 0.1), size));
     };
     const auto a = any(), b = any();
-    // b comes down on a until they nearly touch
+    // move b towards a until they nearly touch
     Pose X_AB = test::random_pose(random, 0);
     X_AB.position = 4 * size * test::random_direction(random);
     const Distance apart = distance(*a, *b, X_AB);
@@ -523,7 +525,7 @@ TEST_CASE("whatever the meshes are, a patch is numbers") {
   CHECK(sites > 100);
 }
 
-TEST_CASE("numbers that are none are refused") {
+TEST_CASE("invalid numbers are rejected") {
   const auto a = Shape::make(test::floor_board()), b = Shape::make(test::icosphere(0.02, 2));
   const SoftSite site{.a = a,
                       .b = b,
@@ -550,11 +552,11 @@ Mesh mirrored(Mesh mesh) {
   return mesh;
 }
 
-// the other diagonal of each face of a box, triangles and vertices in another order
+// with the other diagonal of each face of a box, and triangles and vertices in another order
 Mesh cut_otherwise(Mesh mesh) {
   for (size_t t = 0; t + 1 < mesh.triangles.size(); t += 2) {
     const auto one = mesh.triangles[t], two = mesh.triangles[t + 1];
-    // p q r and the corner that only the second has
+    // p q r and the corner that only the second triangle has
     for (int k = 0; k < 3; ++k) {
       const int p = one[k], q = one[(k + 1) % 3], r = one[(k + 2) % 3];
       if (std::find(two.begin(), two.end(), p) != two.end()) continue;
@@ -570,7 +572,7 @@ Mesh cut_otherwise(Mesh mesh) {
   return mesh;
 }
 
-// what all patches of two bodies are, apart from where, at some forces
+// sizes and depths of all patches of two bodies, without their positions, at some forces
 struct PatchNumbers {
   std::vector<double> sizes;   // area, torsion radius
   std::vector<double> depths;  // indentation, pressure
@@ -595,8 +597,8 @@ std::vector<PatchNumbers> numbers_of(const Mesh& a, const Mesh& b, const Pose& X
   return out;
 }
 
-// all are as one: sums over pieces of circles are integrals to some digits, and springs that just
-// touch leave a kink
+// all are equal within a tolerance: sums over circular sectors approximate integrals, and springs
+// that just touch cause a kink
 void check_alike(const std::vector<PatchNumbers>& some, const PatchNumbers& expected, double sizes,
                  double depths) {
   REQUIRE(!some.empty());
@@ -610,7 +612,8 @@ void check_alike(const std::vector<PatchNumbers>& some, const PatchNumbers& expe
 }  // namespace
 
 TEST_CASE(
-    "equivalent corners have equal patches: turned, mirrored, exchanged, moved, cut otherwise") {
+    "equivalent corners have equal patches: turned, mirrored, swapped, moved, with another "
+    "triangulation") {
   Random random(21);
   constexpr double rounding = 1e-7;
   const Mesh floor = test::floor_board();
@@ -621,7 +624,7 @@ TEST_CASE(
       const Pose X_AB{Pose::turn(turn, Vector3d::UnitZ()).rotation, {0, 0, size / 2 + gap}};
       const auto corners = numbers_of(floor, box, X_AB, false);
       REQUIRE(corners.size() == 4);
-      // the corners of all cubes that are wider than their patches are alike
+      // the corners of all cubes wider than their patches have equal patches
       if (!corner) corner = corners[0];
       check_alike(corners, *corner, rounding, rounding);
       check_alike(numbers_of(floor, cut_otherwise(box), X_AB, false), *corner, rounding, rounding);
@@ -635,7 +638,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("edges, rims, narrow pads and corners that stand have equal patches however they lie") {
+TEST_CASE("edges, rims, narrow pads and upright corners have equal patches in every position") {
   Random random(22);
   const auto check = [](const std::vector<PatchNumbers>& some, const PatchNumbers& expected) {
     check_alike(some, expected, 1e-5, 3e-3);

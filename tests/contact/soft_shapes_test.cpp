@@ -1,4 +1,4 @@
-// Soft patches of shapes with curvatures known at every point, under irregular meshes.
+// Soft patches of shapes with known curvatures at every point, with irregular meshes.
 #include <algorithm>
 
 #include "clench/contact/soft_patch.h"
@@ -16,7 +16,7 @@ constexpr double near = 5e-5;  // within the contact threshold [m]
 constexpr double soft_modulus = 1.5e6;
 constexpr double flat_cap = 0.02;
 
-/// Ball of unit directions, edges of 1/8 to 1/25, no two alike: moved at random and drawn together
+/// Ball of unit directions, with unequal edges of 1/8 to 1/25: moved at random and concentrated
 /// towards one pole.
 Mesh uneven_sphere(Random& random, int subdivisions) {
   Mesh mesh = test::icosphere(1, subdivisions);
@@ -27,19 +27,19 @@ Mesh uneven_sphere(Random& random, int subdivisions) {
   return mesh;
 }
 
-/// The same diagonals in no order: of two neighbors every third is cut the other way.
+/// Breaks the regular pattern of diagonals: swaps every third diagonal between two neighbors.
 void turn_diagonals(Mesh& mesh, Random& random) {
   for (size_t t = 0; t + 1 < mesh.triangles.size(); t += 2) {
     auto& [a, b, c] = mesh.triangles[t];
     auto& [d, e, f] = mesh.triangles[t + 1];
-    // both of one cell: a b c and a c f
+    // both triangles of one cell: a b c and a c f
     if (a != d || c != e || random.uniform(0, 1) > 0.33) continue;
     const Triangle one = {a, b, f}, two = {b, c, f};
     mesh.triangles[t] = one, mesh.triangles[t + 1] = two;
   }
 }
 
-/// about z, the middles of its cells moved
+/// about z, with the centers of its cells displaced
 Mesh uneven_torus(Random& random, double ring, double tube, int around, int along) {
   Mesh mesh = test::torus(ring, tube, around, along);
   for (int i = 0; i < around; ++i)
@@ -53,13 +53,13 @@ Mesh uneven_torus(Random& random, double ring, double tube, int around, int alon
   return mesh;
 }
 
-/// How a surface bends as a form on space: 0 along its normal [1/m].
+/// Second fundamental form of a surface, as a form on space: 0 along its normal [1/m].
 Matrix3d bend(const Vector3d& direction, double curvature, const Vector3d& other,
               double curvature2) {
   return curvature * direction * direction.transpose() + curvature2 * other * other.transpose();
 }
 
-/// of x^T D x = 1 where its outward normal is n
+/// of the surface x^T D x = 1 at the point with outward normal n
 Matrix3d ellipsoid_bend(const Vector3d& semi_axes, const Vector3d& n) {
   const Matrix3d D = semi_axes.cwiseAbs2().cwiseInverse().asDiagonal();
   const Vector3d p = semi_axes.cwiseAbs2().cwiseProduct(n) / semi_axes.cwiseProduct(n).norm();
@@ -80,7 +80,8 @@ struct Errors {
   }
 };
 
-/// Of a patch against the gap's form in the frame of a; beyond 1 m the cap stands for radii.
+/// Errors of a patch compared with the form of the gap in the frame of a; radii are capped beyond 1
+/// m.
 Errors errors_of(const SoftPatch& patch, const Matrix3d& form, double force = 5) {
   const auto [values, vectors] = eigensystem(form);  // ascending: 0, then the lesser one
   const double first = 1 / values[2];
@@ -105,7 +106,7 @@ SoftPatch press_soft(const Mesh& a, const Mesh& b, const Pose& X_AB) {
   return soft_patch(*soft_sites(shape_a, shape_b, X_AB, {}, {.modulus = soft_modulus}, touches)[0]);
 }
 
-/// a body, turned, comes down on a board
+/// a turned body, lowered onto a board
 SoftPatch land(const Mesh& body, const Pose& turn) {
   const Mesh turned = test::moved(body, turn);
   const Mesh board = test::moved(test::box(0.3, 0.3, 0.02), Pose::translation({0, 0, -0.01}));
@@ -120,7 +121,8 @@ Matrix3d turned_form(const Pose& turn, const Matrix3d& form) {
 
 }  // namespace
 
-TEST_CASE("ellipsoids of uneven meshes bend as the formula says, wherever they touch") {
+TEST_CASE(
+    "ellipsoids with uneven meshes have the curvatures of the formula, at any contact point") {
   Random random(11);
   Errors coarse, fine;
   for (int trial = 0; trial < test::cases(40); ++trial) {
@@ -135,19 +137,20 @@ TEST_CASE("ellipsoids of uneven meshes bend as the formula says, wherever they t
       (subdivisions == 3 ? coarse : fine).add(errors_of(land(mesh, turn), form));
     }
   }
-  // a half more than was found: edges of 3 mm and 1.5 mm beside a neighborhood of 3.5 mm. Radii
-  // enter the torsion by the power 1/8
+  // the measured errors plus a half: edges of 3 mm and 1.5 mm, with a neighborhood of 3.5 mm. Radii
+  // enter the torsion with the power 1/8
   coarse.check(0.1, 0.08, 0.013);
   fine.check(0.045, 0.05, 0.008);
 }
 
-TEST_CASE("a tilted torus of an uneven mesh has the radii of its tube and of where it touches") {
+TEST_CASE(
+    "a tilted torus with an uneven mesh has the radii of its tube and of the ring at the contact") {
   Random random(12);
   Errors all;
   for (int trial = 0; trial < test::cases(20); ++trial) {
     const double ring = 0.03, tube = random.uniform(0.008, 0.015), v = random.uniform(0, 1.2);
     const Mesh mesh = uneven_torus(random, ring, tube, 72, 36);
-    // its axis leans until it touches at the height v on the tube
+    // its axis is inclined until it touches at the height v on the tube
     const Pose turn{shortest_rotation(Vector3d(std::cos(v), 0, std::sin(v)), -Vector3d::UnitZ()),
                     Vector3d::Zero()};
     const Vector3d along(-std::sin(v), 0, std::cos(v));
@@ -163,7 +166,7 @@ TEST_CASE("a ball on the flank of a cone adds its curvature to that across the f
   Errors all;
   for (int trial = 0; trial < test::cases(20); ++trial) {
     const double half_angle = random.uniform(0.1, 0.6), middle = random.uniform(0.015, 0.03);
-    // a frustum about z, of rings as uneven as their segments
+    // a frustum about z, with uneven rings and segments
     Mesh cone;
     const int rings = 9, segments = 48;
     for (int i = 0; i < rings; ++i)
@@ -211,7 +214,7 @@ TEST_CASE("a box rounded by 12 mm touches with balls at its corners and cylinder
     Vector3d n = test::random_direction(random).cwiseAbs();
     if (!corner) n.x() = 0;
     n.normalize();
-    // the neighborhood reaches 17 degrees around, which is to be on one ball or cylinder
+    // the neighborhood spans 17 degrees, which must belong to one ball or cylinder
     if ((corner ? n.minCoeff() : std::min(n.y(), n.z())) < 0.35) continue;
     const Pose turn{shortest_rotation(n, -Vector3d::UnitZ()), Vector3d::Zero()};
     const Matrix3d round_form = (Matrix3d::Identity() - n * n.transpose()) / round;
@@ -219,7 +222,7 @@ TEST_CASE("a box rounded by 12 mm touches with balls at its corners and cylinder
       corners.add(errors_of(land(mesh, turn), turned_form(turn, round_form)));
       continue;
     }
-    // a ball at the middle of the edge, where its triangles are long
+    // a ball at the middle of the edge, where the triangles of the edge are long
     const double radius = random.uniform(0.01, 0.03);
     const Vector3d foot(random.uniform(-0.4, 0.4) * half.x(), half.y(), half.z());
     const Vector3d start = foot + (round + radius + 0.002) * n;

@@ -25,7 +25,7 @@ static ShapePtr round_shape(const Round& round) {
 
 static constexpr double tilt_threshold = 1e-4, least_gap = 4e-5,
                         tilt_slack = tilt_threshold - least_gap;
-// contacts nearer than this count as one [m]
+// contacts closer than this count as one [m]
 static constexpr double merged = 2e-4;
 
 static std::vector<Vector3d> contact_points(const Shape& a, const Shape& b, const Pose& X_AB) {
@@ -68,8 +68,8 @@ static double extent_along(const std::vector<Vector3d>& points, const Vector3d& 
   return high - low;
 }
 
-// Contact points at angles from 0 to `last`: from step to step they move by no more than `most`.
-// along  direction in which extent_at gives how far they reach
+// Contact points at angles from 0 to `last`: between steps they move by no more than `most`.
+// along  direction in which extent_at returns the extent
 static void sweep_tilt(double last, int steps, double most, const Vector3d& along,
                        const std::function<std::vector<Vector3d>(double)>& points_at,
                        const std::function<double(double)>& extent_at) {
@@ -85,8 +85,8 @@ static void sweep_tilt(double last, int steps, double most, const Vector3d& alon
   CHECK(before.size() == 1);
 }
 
-// Length of what stays in contact of a flat part, where it drops by `drop` along it:
-// all of it up to a drop of `slack`, nothing from four times that on.
+// Length of a flat part that stays in contact if it drops by `drop` along its length: all of it up
+// to a drop of `slack`, nothing from four times that on.
 static double length_near(double stick_length, double drop) {
   if (drop <= tilt_slack) return stick_length;
   return std::max(0.0, stick_length * (4 * tilt_slack / drop - 1) / 3);
@@ -130,7 +130,7 @@ TEST_CASE("the far end of a stick that tilts on a slab moves towards the near en
   }
 }
 
-TEST_CASE("where sticks lie side by side, what they share shrinks as they tilt or cross") {
+TEST_CASE("the shared length of sticks side by side shrinks as they tilt or cross") {
   constexpr int steps = 2000;
   for (const Round& a : sticks)
     for (const Round& b : sticks) {
@@ -144,13 +144,13 @@ TEST_CASE("where sticks lie side by side, what they share shrinks as they tilt o
             const double lift = stick_radius / std::cos(angle) + stick_radius +
                                 least_gap / std::cos(angle) + stick_length / 2 * std::tan(angle);
             Pose X{about(Vector3d::UnitY(), angle), {lift, 0, 0}};
-            // brought to the least gap along x
+            // moved to the least gap along x
             for (int i = 0; i < 20; ++i)
               X.position.x() -= gap_between({a, {}}, {b, X}).gap - least_gap;
             return contact_points(*first, *second, X);
           },
           [&](double angle) { return length_near(stick_length, stick_length * std::sin(angle)); });
-      // crossed: the axes are as far from each other as the threshold allows at s sin a = reach
+      // crossed: the distance of the axes reaches the threshold at s sin a = reach
       const double reach = std::sqrt(std::pow(2 * stick_radius + tilt_threshold, 2) - away * away);
       const double widest = 4.5 * 2 * reach / stick_length;
       sweep_tilt(
@@ -206,7 +206,7 @@ TEST_CASE("the shared cap of two cans shrinks as one tilts, continuously") {
   }
 }
 
-TEST_CASE("a stick on the edge of a box keeps what is near as it turns across the edge") {
+TEST_CASE("a stick on the edge of a box keeps its near part as it turns across the edge") {
   const auto slab = plane_slab();
   const double outward = 0.7;
   for (const Round& round : sticks) {
@@ -226,7 +226,7 @@ TEST_CASE("a stick on the edge of a box keeps what is near as it turns across th
           return contact_points(*slab, *stick, X);
         },
         [&](double angle) {
-          // along the edge: abreast of the stick lies length / cos a of it
+          // along the edge: a length / cos a of the edge is next to the stick
           const double near = 2 * reach / std::max(std::sin(angle), 1e-9),
                        all = stick_length / std::cos(angle);
           return near >= all ? all : std::max(0.0, (4 * near - all) / 3);

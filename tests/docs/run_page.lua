@@ -1,9 +1,9 @@
--- Runs the Lua blocks of a Markdown page as one script, in order: a page tells one story. Everything else on the page becomes empty
--- lines, so an error names the page's own line. Then runs each block of commands that is followed by a block of output, in an
--- empty folder, and compares the two: "..." stands for any number of lines, and seconds may differ.
+-- Runs the Lua blocks of a Markdown page as one script, in order: a page tells one story. Everything else on the page becomes empty lines, so that
+-- errors name the page's own line. Then runs each block of commands that is followed by a block of output, in an empty folder, and compares the two:
+-- "..." matches any number of lines, and seconds may differ.
 --   clench run tests/docs/run_page.lua PAGE
 local new_path = require "clench.test".path
-os.tmpname = new_path  -- what a page writes there is removed at the end
+os.tmpname = new_path  -- files that a page writes there are removed at the end
 local page = assert(arg[1], "usage: run_page.lua PAGE")
 local lines, blocks, last = {}, {}, nil
 for text in io.lines(page) do

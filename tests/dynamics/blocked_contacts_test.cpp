@@ -1,4 +1,4 @@
-// Contacts whose normal no coordinate moves, or hardly any.
+// Contacts whose normal velocity no coordinate changes, or hardly any.
 #include <cmath>
 #include <numbers>
 
@@ -24,7 +24,7 @@ JointSpec slide(const Vector3d& axis, int dof) {
   return joint;
 }
 
-// A puck of 1 kg on joints in a row, the first of them on a base high above.
+// A puck of 1 kg on joints in series, the first of them on a base high above.
 RobotSpec puck(const std::vector<JointSpec>& joints) {
   RobotSpec robot;
   robot.name = "puck";
@@ -55,7 +55,7 @@ struct Floor {
 
 }  // namespace
 
-TEST_CASE("a puck on two slides across the contact's normal stays where it is") {
+TEST_CASE("a puck on two slides across the contact's normal stays at rest") {
   Floor floor(puck({slide({1, 0, 0}, 0), slide({0, 1, 0}, 1)}), 1e-5);
   Stepper(floor.world).run(0.1);
   CHECK(floor.world.dynamics()->report.contacts == 4);
@@ -77,7 +77,7 @@ TEST_CASE(
       hinge.kind = JointKind::revolute;
       joints.push_back(hinge);
     }
-    // apart, at rest, or a little into each other
+    // separated, at rest, or slightly overlapping
     Floor floor(puck(joints), random.uniform(-1e-5, 6e-5));
     Eigen::VectorXd v(static_cast<Eigen::Index>(joints.size()));
     for (double& x : v) x = random.uniform(-0.1, 0.1);
@@ -86,7 +86,7 @@ TEST_CASE(
     Stepper(floor.world).run(seconds);
     CAPTURE(tilt);
     CHECK(floor.world.dynamics()->report.failures == 0);
-    // a slide of this tilt is pulled by gravity, and pushed apart by less than a tenth of its speed
+    // gravity pulls along a slide of this tilt; contacts push by less than a tenth of the speed
     CHECK(floor.speed() < before + g * tilt * seconds + 0.01);
   }
 }

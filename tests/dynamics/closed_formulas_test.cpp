@@ -13,14 +13,14 @@ using namespace clench::test;
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-// as high above a plate as bodies rest
+// height of resting bodies above a plate
 constexpr double touch = 2.5e-5;
 
 }  // namespace
 
 TEST_CASE(
-    "a box on a slope sticks below the friction angle, and above it slides as it should, at any "
-    "step") {
+    "a box on a slope sticks below the friction angle, and accelerates as the formula says above "
+    "it, at any time step") {
   for (const double step : {5e-4, 1e-3, 5e-3})
     for (const double angle : {10 * degree, 30 * degree, 50 * degree}) {
       const double limit = std::tan(angle);
@@ -46,8 +46,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "of a cube that slides the corners in front carry more than those behind, and each of a pair "
-    "the same") {
+    "the front corners of a sliding cube carry more than the rear ones, and both of a pair the "
+    "same") {
   const double angle = 20 * degree, mu = 0.95 * std::tan(angle), mass = 0.4;
   Slope slope(angle, mu);
   slope.put("box", box(0.1, 0.1, 0.1), mass, Pose::translation({-5, 0, 0.05 + touch}));
@@ -59,21 +59,21 @@ TEST_CASE(
       normal.push_back(c.force_W.dot(up));
   REQUIRE(normal.size() == 4);
   std::ranges::sort(normal);
-  // moments about the center: friction acts half an edge below it. Rounding of the gaps spreads
-  // what is redundant a little
+  // moments about the center: friction acts half an edge below it. Rounding of the gaps changes the
+  // redundant forces a little
   const double each = mass * g * std::cos(angle) / 4;
   for (int i = 0; i < 4; ++i)
     CHECK(normal[i] == doctest::Approx(each * (i < 2 ? 1 - mu : 1 + mu)).epsilon(1e-4));
 }
 
-TEST_CASE("kinetic friction holds once it slides, static friction until then") {
+TEST_CASE("kinetic friction acts during sliding, static friction before") {
   Slope slope(30 * degree);
   slope.world.set_friction("wood", "wood", {.statics = 0.7, .kinetic = 0.3});
   const auto id =
       slope.put("box", box(0.06, 0.05, 0.04), 0.4, Pose::translation({-5, 0, 0.02 + touch}));
   run(slope.world, 0.2);
   CHECK(std::abs(slope.speed(id)) < 1e-12);
-  // a push that breaks it loose; then it goes on
+  // a push starts the sliding, which then continues
   for (int i = 0; i < 20; ++i) {
     slope.world.edit_dynamics().loads[id.index].force =
         slope.X_WS.rotation * Eigen::Vector3d(3, 0, 0);
@@ -86,7 +86,7 @@ TEST_CASE("kinetic friction holds once it slides, static friction until then") {
         doctest::Approx(g * (0.5 - 0.3 * std::cos(30 * degree))).epsilon(1e-9));
 }
 
-TEST_CASE("a ball that is thrown along a floor slides, then rolls with 5/7 of its speed") {
+TEST_CASE("a ball thrown along a floor slides, then rolls with 5/7 of its speed") {
   Slope floor(0, 0.3);
   const double radius = 0.05;
   const auto id =
@@ -94,7 +94,7 @@ TEST_CASE("a ball that is thrown along a floor slides, then rolls with 5/7 of it
   floor.world.set_inertia(id, 0.4 * radius * radius * Eigen::Matrix3d::Identity());
   floor.world.set_twist(id, {{2, 0, 0}, {0, 0, 0}});
   run(floor.world, 2.0 / 7 * 2 / (0.3 * g) + 0.15);
-  // they touch in the middle of the gap between them, 1/4000 of the radius below the ball
+  // the contact is in the middle of the gap between them, 1/4000 of the radius below the ball
   CHECK(floor.speed(id) == doctest::Approx(5.0 / 7 * 2).epsilon(1e-3));
   CHECK(floor.world.twist(id).angular.y() * radius ==
         doctest::Approx(floor.speed(id)).epsilon(5e-4));
@@ -113,8 +113,8 @@ TEST_CASE("a ball rolls down a slope at 5/7 of the slope's acceleration") {
         doctest::Approx(5.0 / 7 * g * std::sin(10 * degree)).epsilon(5e-4));
 }
 
-TEST_CASE("a spinning ball that is thrown slides as friction says, and ends as it rolls") {
-  // backspin: w = -60 rad/s at 1 m/s comes back; v = (5 v0 + 2 r w0) / 7
+TEST_CASE("a thrown spinning ball slides according to friction, and finally rolls") {
+  // backspin: with w = -60 rad/s at 1 m/s it returns; v = (5 v0 + 2 r w0) / 7
   Slope floor(0, 0.2);
   const double radius = 0.05;
   const auto id =
@@ -128,8 +128,8 @@ TEST_CASE("a spinning ball that is thrown slides as friction says, and ends as i
 }
 
 TEST_CASE(
-    "balls bounce off a floor to the height that their restitution says, and off each other along "
-    "their line") {
+    "balls bounce off a floor to the height of their restitution, and off each other along their "
+    "line of centers") {
   Slope floor(0);
   const double radius = 0.05;
   const auto id = floor.put("ball", ball(radius), 1, Pose::translation({0, 0, radius + 0.5}));
@@ -149,7 +149,7 @@ TEST_CASE(
   table.set_friction("wood", "wood", {.statics = 0, .kinetic = 0});
   BodySpec spec = body_spec("ball", ball(radius));
   const auto a = table.add_body(spec, BodyKind::object, {}, "a");
-  // its center lies half a diameter off the way of the first: the line of centers is at 30 degrees
+  // its center is half a diameter off the path of the first: the line of centers is at 30 degrees
   const auto b = table.add_body(spec, BodyKind::object, Pose::translation({0.4, radius, 0}), "b");
   table.set_restitution(a, 1);
   table.set_twist(a, {{1, 0, 0}, {0, 0, 0}});
@@ -159,7 +159,7 @@ TEST_CASE(
   CHECK((table.twist(a).linear - Eigen::Vector3d(s * s, -c * s, 0)).norm() < 1e-3);
 }
 
-TEST_CASE("boxes bounce by their restitution") {
+TEST_CASE("boxes bounce with their restitution") {
   for (const double restitution : {0.0, 0.5, 0.9}) {
     Slope floor(0);
     const auto id = floor.put("box", box(0.1, 0.1, 0.1), 1, Pose::translation({0, 0, 0.05 + 0.5}));
@@ -173,13 +173,13 @@ TEST_CASE("boxes bounce by their restitution") {
       bounced = bounced || v > 0;
       if (bounced) highest = std::max(highest, floor.world.pose(id).position.z() - 0.05);
     }
-    // speeds are those at the end of a step of 1 ms: 1 % of the speed at the blow
+    // speeds are those at the end of a step of 1 ms: 1 % of the impact speed
     CHECK(std::abs(highest - 0.5 * restitution * restitution) < 0.012);
     CHECK(floor.world.dynamics()->report.overlaps == 0);
   }
 }
 
-TEST_CASE("two equal boxes that meet head-on exchange their velocities, or share them") {
+TEST_CASE("two equal boxes in a head-on impact exchange their velocities, or share them") {
   for (const double restitution : {0.0, 1.0}) {
     World world;
     world.set_gravity({0, 0, 0});
@@ -195,7 +195,7 @@ TEST_CASE("two equal boxes that meet head-on exchange their velocities, or share
   }
 }
 
-TEST_CASE("nothing tunnels: a bullet stops at a sheet of a tenth of a millimeter") {
+TEST_CASE("no body tunnels: a bullet stops at a sheet of a tenth of a millimeter") {
   World world;
   world.set_gravity({0, 0, 0});
   world.add_body(body_spec("sheet", box(1e-4, 1, 1)), BodyKind::obstacle, {}, "sheet");
@@ -208,7 +208,7 @@ TEST_CASE("nothing tunnels: a bullet stops at a sheet of a tenth of a millimeter
 }
 
 TEST_CASE(
-    "what slides far in a step slides as it should, and stops at a narrow ridge of the same "
+    "a body that slides far in one step slides correctly, and stops at a narrow ridge of the same "
     "floor") {
   // 2 mm wide, as high as the box, 3 m ahead
   const Mesh ridge = moved(box(0.002, 1, 0.2), Pose::translation({3, 0, 0.1}));
@@ -218,7 +218,7 @@ TEST_CASE(
   world.set_friction("wood", "wood", {.statics = 0.3, .kinetic = 0.3});
   const auto id = world.add_body(body_spec("box", box(0.1, 0.1, 0.1)), BodyKind::object,
                                  Pose::translation({0, 0, 0.15 + touch}), "box");
-  // 20 mm in a step
+  // 20 mm per step
   world.set_twist(id, {{20, 0, 0}, {0, 0, 0}});
   run(world, 0.1);
   CHECK(world.twist(id).linear.x() == doctest::Approx(20 - 0.3 * g * 0.1).epsilon(1e-9));
@@ -229,8 +229,8 @@ TEST_CASE(
   CHECK(world.pose(id).position.x() < 2.96);
 }
 
-TEST_CASE("a tall box tips over its edge when the slope is steep, and stands when it is not") {
-  // 4 cm wide, 12 cm high: at atan(1 / 3) = 18.43 degrees its weight stands over the edge
+TEST_CASE("a tall box tips over its edge on a steep slope, and stands on a flatter one") {
+  // 4 cm wide, 12 cm high: at atan(1 / 3) = 18.43 degrees the center of mass is above the edge
   for (const double angle : {17.5 * degree, 19.5 * degree}) {
     Slope slope(angle, 2);
     const auto id =
@@ -245,7 +245,7 @@ TEST_CASE("a tall box tips over its edge when the slope is steep, and stands whe
   }
 }
 
-TEST_CASE("a stack of ten boxes stands still") {
+TEST_CASE("a stack of ten boxes stays at rest") {
   Slope floor(0, 0.5);
   std::vector<Id<Body>> boxes;
   for (int i = 0; i < 10; ++i)
@@ -259,15 +259,15 @@ TEST_CASE("a stack of ten boxes stands still") {
     CHECK((floor.world.pose(boxes[i]).position - before[i].position).norm() < 1e-9);
     CHECK(floor.world.pose(boxes[i]).position.z() > 0.05 + static_cast<double>(i) * 0.1);
   }
-  // the lowest carries all of them
+  // the lowest box carries all others
   double force = 0;
   for (const Contact& c : contacts(floor.world))
     if (c.other == floor.ground || c.body == floor.ground) force += std::abs(c.force_W.z());
-  // what rests may lack a millionth of gravity
+  // contact forces of bodies at rest may miss a millionth of gravity
   CHECK(force == doctest::Approx(10 * g).epsilon(1e-5));
 }
 
-TEST_CASE("the same motion wherever the world stands and however it is turned") {
+TEST_CASE("the motion does not depend on the position and orientation of the world") {
   const auto end = [](const Pose& X) {
     World world;
     world.set_gravity(X.rotation * Eigen::Vector3d(0, 0, -g));
@@ -286,12 +286,12 @@ TEST_CASE("the same motion wherever the world stands and however it is turned") 
   const Pose there =
       end({Eigen::Quaterniond(Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, -1, 2).normalized())),
            {1, -2, 0.5}});
-  // tumbling enlarges rounding, blow by blow
+  // tumbling amplifies rounding errors with every impact
   CHECK((here.position - there.position).norm() < 1e-6);
   CHECK((here.rotation.conjugate() * there.rotation).vec().norm() < 1e-5);
 }
 
-TEST_CASE("the same bits again, on a clone, and after a restored snapshot") {
+TEST_CASE("repeated runs are bit-identical, also on a clone and after a restored snapshot") {
   const auto start = [] {
     Slope slope(20 * degree, 0.3);
     for (int i = 0; i < 3; ++i)
@@ -316,7 +316,7 @@ TEST_CASE("the same bits again, on a clone, and after a restored snapshot") {
   CHECK(one.hash() == hash);
 }
 
-TEST_CASE("a conveyor belt carries what lies on it, to its own speed and no further") {
+TEST_CASE("a conveyor belt accelerates bodies on it to its own speed and no further") {
   Slope belt(0, 0.4);
   DynamicSettings settings = belt.world.dynamic_settings();
   settings.surface_velocities[belt.ground] = {0.5, 0, 0};
@@ -329,9 +329,7 @@ TEST_CASE("a conveyor belt carries what lies on it, to its own speed and no furt
   CHECK(belt.world.pose(belt.ground) == Pose{});
 }
 
-TEST_CASE(
-    "the base of a robot without DOFs carries what lies on it, as it turns about an axis far "
-    "away") {
+TEST_CASE("a rotating base of a robot without DOFs carries bodies on it about a distant axis") {
   World world;
   world.set_friction("wood", "wood", {.statics = 0.9, .kinetic = 0.9});
   RobotSpec table = pendulum(0);
@@ -344,15 +342,14 @@ TEST_CASE(
   world.set_twist(world.robot(robot).base, {{0, 0, 0}, {0, 0, 2}});
   world.set_twist(cup, {{0, 0.6, 0}, {0, 0, 2}});
   run(world, 0.5);
-  // it goes round with the table: 2 rad/s at 0.3 m takes 1.2 m/s^2, friction gives nine
+  // it turns with the table: 2 rad/s at 0.3 m requires 1.2 m/s^2, and friction provides up to nine
   const Eigen::Vector3d expected(5 + 0.3 * std::cos(1.0), 3 + 0.3 * std::sin(1.0), 0);
   CHECK((world.pose(cup).position - expected).head<2>().norm() < 2e-3);
   CHECK(world.twist(cup).angular.z() == doctest::Approx(2).epsilon(1e-3));
 }
 
 TEST_CASE(
-    "obstacles that move into obstacles, and bodies that are removed while they touch, disturb "
-    "nothing") {
+    "obstacles that overlap obstacles, and bodies removed while in contact, disturb nothing") {
   Slope floor(0);
   const auto box_id =
       floor.put("box", box(0.1, 0.1, 0.1), 1, Pose::translation({0, 0, 0.05 + touch}));
@@ -368,8 +365,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a ball whose center has come into a plate is pushed out of it, and contacts tell its weight "
-    "once") {
+    "a ball whose center is inside a plate is pushed out of it, and contact forces count its "
+    "weight once") {
   Slope floor(0);
   const double radius = 0.02;
   const auto id = floor.put("ball", ball(radius, 24, 48), 1, Pose::translation({0, 0, -0.005}));
@@ -381,8 +378,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the fingerprint of a world tells all that makes it move otherwise, and nothing that does "
-    "not") {
+    "the fingerprint of a world covers everything that changes its motion, and nothing else") {
   const auto start = [] {
     Slope slope(0);
     slope.put("box", box(0.1, 0.1, 0.1), 1, Pose::translation({0, 0, 0.05 + touch}));
@@ -407,9 +403,7 @@ TEST_CASE(
   CHECK(world.hash() != hash);
 }
 
-TEST_CASE(
-    "a body that is put down with its faces touching, or a little above, sticks by static "
-    "friction") {
+TEST_CASE("a body placed with its faces touching, or slightly above, sticks by static friction") {
   for (const double gap : {0.0, 1e-6, 1e-5, 2.5e-5, 9e-5, 1.1e-4, 5e-4}) {
     CAPTURE(gap);
     Slope slope(26 * degree);
@@ -418,8 +412,8 @@ TEST_CASE(
     const auto id =
         slope.put("box", box(0.06, 0.06, 0.04), 0.44, Pose::translation({0, 0, 0.02 + gap}));
     run(slope.world, 0.3);
-    // what has fallen 0.4 mm arrives at 39 mm/s along the slope, of which kinetic friction takes
-    // 24: it slides on
+    // after a fall of 0.4 mm it moves at 39 mm/s along the slope, of which kinetic friction removes
+    // 24: it continues to slide
     if (gap == 5e-4)
       CHECK(slope.speed(id) > 0.3);
     else

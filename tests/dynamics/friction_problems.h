@@ -1,4 +1,4 @@
-// Friction problems of all kinds, at random.
+// Random friction problems of all kinds.
 #pragma once
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -14,11 +14,11 @@ struct FrictionKind {
   int max_bodies = 3;
   int max_contacts = 12;
   double max_mu = 2;
-  double mass_ratio = 1;   // of one body to another
+  double mass_ratio = 1;   // between two bodies
   bool rows = true;        // joint limits, motors, equations
-  bool duplicates = true;  // rows that are there twice, of either sign
-  bool consistent = true;  // velocities of rigid bodies: rest is possible
-  double compliance = 0;   // on W's diagonal
+  bool duplicates = true;  // duplicate rows, of either sign
+  bool consistent = true;  // velocities of rigid bodies, which impulses can stop
+  double compliance = 0;   // added to the diagonal of W
 };
 
 inline int below(Random& random, int count) { return static_cast<int>(random.uniform() * count); }
@@ -29,7 +29,7 @@ inline Eigen::VectorXd normals(Random& random, int count) {
   return v;
 }
 
-/// Free bodies that touch each other and the ground at points and along normals at random.
+/// Free bodies that touch each other and the ground at random points with random normals.
 inline FrictionProblem random_problem(Random& random, const FrictionKind& kind) {
   using Eigen::Vector3d, Eigen::VectorXd;
   const int bodies = 1 + below(random, kind.max_bodies),
@@ -92,8 +92,8 @@ inline FrictionProblem random_problem(Random& random, const FrictionKind& kind) 
   return problem;
 }
 
-/// The nearest point of |t| <= mu n: itself, the apex, or on the one line of the boundary that may
-/// be nearest.
+/// The nearest point of |t| <= mu n: the point itself, the apex, or the nearest point on the only
+/// candidate line of the boundary.
 inline Eigen::VectorXd nearest_in_cone(const Eigen::VectorXd& p, double mu) {
   const Eigen::VectorXd t = p.tail(p.size() - 1);
   if (p[0] >= 0 && t.norm() <= mu * p[0]) return p;
@@ -102,7 +102,7 @@ inline Eigen::VectorXd nearest_in_cone(const Eigen::VectorXd& p, double mu) {
   return std::max(0.0, line.dot(p) / line.squaredNorm()) * line;
 }
 
-/// What each block misses of its law, as a velocity, written down once more.
+/// Violation of each block's law, as a velocity, by an independent implementation.
 inline Eigen::VectorXd faults(const FrictionProblem& problem, const Eigen::VectorXd& r) {
   const Eigen::VectorXd u = problem.W * r + problem.q;
   Eigen::VectorXd all(problem.blocks.size());
@@ -124,7 +124,7 @@ inline Eigen::VectorXd faults(const FrictionProblem& problem, const Eigen::Vecto
   return all;
 }
 
-// by a solver that has solved nothing before
+// with a new solver, without stored state
 inline FrictionSolution solve_friction(const FrictionProblem& problem,
                                        const Eigen::VectorXd& warm_start,
                                        const FrictionOptions& options = {}) {

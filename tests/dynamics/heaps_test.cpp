@@ -23,8 +23,8 @@ Vector3d direction_in(Random& random) {
   return Vector3d(random.normal(), random.normal(), random.normal()).normalized();
 }
 
-/// Bodies of one to three kilograms in layers of four, each on some below it or on the ground, that
-/// arrive with random velocities; some contacts have torsion, some rows have bounds.
+/// Bodies of one to three kilograms in layers of four, each on some body below it or on the ground,
+/// with random initial velocities; some contacts have torsion, some rows have bounds.
 TreeFriction random_heap(Random& random, int bodies) {
   TreeFriction heap;
   heap.clear();
@@ -70,7 +70,7 @@ TreeFriction random_heap(Random& random, int bodies) {
   return heap;
 }
 
-/// A floor at z = 0, and boxes on it or in it.
+/// A floor at z = 0, with boxes on it or overlapping it.
 struct HeapWorld {
   World world;
   std::vector<Id<Body>> boxes;
@@ -94,7 +94,7 @@ struct HeapWorld {
   }
 };
 
-// a quarter of the contact threshold, at which bodies rest [m]
+// gap of bodies at rest: a quarter of the contact threshold [m]
 constexpr double rest_at = 2.5e-5;
 
 HeapWorld bin(int count) {
@@ -115,7 +115,7 @@ HeapWorld bin(int count) {
 
 }  // namespace
 
-TEST_CASE("products by trees are those of the assembled matrix") {
+TEST_CASE("products by trees equal those of the assembled matrix") {
   Random random(6);
   const TreeFriction heap = random_heap(random, 9);
   const FrictionProblem problem = heap.assembled();
@@ -128,7 +128,7 @@ TEST_CASE("products by trees are those of the assembled matrix") {
     CHECK(block.d == doctest::Approx(block_admittance(problem, block)));
 }
 
-TEST_CASE("heaps solved by their trees obey the laws of the assembled problem") {
+TEST_CASE("heaps solved by their trees satisfy the laws of the assembled problem") {
   TreeFrictionSolver by_trees;
   FrictionSolver by_matrix;
   for (int number = 0; number < 25; ++number) {
@@ -139,7 +139,7 @@ TEST_CASE("heaps solved by their trees obey the laws of the assembled problem") 
     REQUIRE(solution.solved);
     CHECK(friction_residual(problem, solution.r) < 1e-11);
     CHECK((solution.u - problem.W * solution.r - problem.q).norm() < 1e-11);
-    // there are many solutions, and each method returns one of them
+    // the solution is not unique: each method accepts the solution of the other
     CHECK(by_matrix.solve(problem, solution.r).iterations == 0);
     CHECK(by_trees.solve(heap, by_matrix.solve(problem, {}).r).iterations == 0);
   }
@@ -155,7 +155,7 @@ TEST_CASE("a heap with a number that is not finite is not solved") {
   CHECK(solution.r.isZero(0));
 }
 
-TEST_CASE("boxes that fall into a bin keep the balance of momentum and gain no energy") {
+TEST_CASE("boxes that fall into a bin conserve momentum and gain no energy") {
   HeapWorld heap = bin(16);
   Stepper stepper(heap.world);
   const double mass = 1.6, h = heap.world.dynamic_settings().step;
@@ -169,8 +169,8 @@ TEST_CASE("boxes that fall into a bin keep the balance of momentum and gain no e
     const double had = energy(), began = heap.world.time();
     REQUIRE(stepper.step(10));
     const DynamicState& state = *heap.world.dynamics();
-    // a step of constant force gains m g^2 h^2 / 2; bodies that were too near each other separate
-    // with at most 0.1 m/s
+    // a step of constant force gains m g^2 h^2 / 2; bodies that were too close to each other
+    // separate with at most 0.1 m/s
     CHECK(energy() - had < 0.5 * mass * 9.81 * 9.81 * h * h + 1e-4);
     if (std::abs(heap.world.time() - began - h) > 1e-9) continue;
     Vector3d force = {0, 0, -9.81 * mass};
@@ -189,7 +189,7 @@ TEST_CASE("boxes that fall into a bin keep the balance of momentum and gain no e
   for (const auto id : heap.boxes) CHECK(heap.world.pose(id).position.z() > 0.019);
 }
 
-TEST_CASE("a heap moves bit-identically when a new stepper continues") {
+TEST_CASE("a heap moves bit-identically with a new stepper") {
   HeapWorld one = bin(12), other = bin(12);
   Stepper stepper(one.world);
   for (int i = 0; i < 25; ++i) {
@@ -218,12 +218,12 @@ TEST_CASE("a tower of planks is bit-exactly at rest") {
   CHECK(tower.world.dynamics()->report.failures == 0);
 }
 
-// Each card of a pair bears half the weight w of the plank beside its own, m g: at its foot H =
-// (w / 2 + m g / 2) tan(lean) against N = w / 2 + m g.
+// Each card of a pair carries half the weight w of the plank in addition to its own, m g: at its
+// foot H = (w / 2 + m g / 2) tan(lean) against N = w / 2 + m g.
 TEST_CASE("a house of cards stands with enough friction, and falls with too little") {
   constexpr double thick = 0.002, length = 0.09, lean = 0.3, card = 0.005, plank = 0.012;
   const double needed =
-      (plank / 4 + card / 2) / (plank / 4 + card) * std::tan(lean);  // two pairs bear the plank
+      (plank / 4 + card / 2) / (plank / 4 + card) * std::tan(lean);  // two pairs carry the plank
   for (const double share : {0.6, 1.4}) {
     HeapWorld house(share * needed);
     const double reach = length / 2 * std::sin(lean) + thick / 2 * std::cos(lean),

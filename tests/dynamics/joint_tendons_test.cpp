@@ -11,7 +11,7 @@ using namespace clench::test;
 
 namespace {
 
-/// Two rods side by side on one base, about vertical axes, so that their weight does nothing.
+/// Two rods side by side on one base, about vertical axes, so that gravity has no effect.
 struct TendonPair {
   World world;
   Id<Robot> id;
@@ -39,20 +39,20 @@ struct TendonPair {
 
 }  // namespace
 
-TEST_CASE("a tendon's range holds the weighted sum of DOFs, which share its force by their arms") {
+TEST_CASE("a tendon's range limits the weighted sum of DOFs, which share its force by their arms") {
   TendonPair pair({.arms = {{0, 1}, {1, -2}}, .range = std::array{-0.1, 0.2}});
   pair.push(3, 0);
   run(pair.world, 1);
   const double length = pair.q(0) - 2 * pair.q(1);
   CHECK(length <= 0.2 + 1e-9);
   CHECK(length > 0.2 - 1e-3);
-  // torques 3 - f and 2 f leave the length as it is: a = 2 b
+  // torques 3 - f and 2 f keep the length constant: a = 2 b
   const double f = 3.0 / 5;
   CHECK(pair.v(1) == doctest::Approx(2 * f / pair.inertia * 1).epsilon(0.05));
   CHECK(pair.v(0) == doctest::Approx(2 * pair.v(1)).epsilon(1e-6));
 }
 
-TEST_CASE("a tendon's spring and damper swing its DOFs as one oscillator") {
+TEST_CASE("DOFs oscillate together by a tendon's spring and damper") {
   const double k = 40, d = 0.5;
   TendonPair pair({.arms = {{0, 1}, {1, -1}}, .stiffness = k, .slack = {0.1, 0.1}, .damping = d});
   set_step(pair.world, 1e-4);
@@ -67,7 +67,7 @@ TEST_CASE("a tendon's spring and damper swing its DOFs as one oscillator") {
 }
 
 TEST_CASE(
-    "within its slack lengths a tendon's spring does nothing, and its dry friction stops it") {
+    "within its slack lengths a tendon's spring exerts no force, and its dry friction stops it") {
   TendonPair slack({.arms = {{0, 1}, {1, 1}}, .stiffness = 40, .slack = {-1, 1}});
   slack.start(0.5, 0.5);
   run(slack.world, 0.5);
@@ -76,13 +76,13 @@ TEST_CASE(
   dry.start(0.5, 0.5);
   run(dry.world, 0.2);
   CHECK(dry.v(0) == doctest::Approx(0.5 - 0.2 * 0.3 / dry.inertia).epsilon(1e-6));
-  // motion that does not change the length is free
+  // motion at constant tendon length is free
   dry.start(0.5, -0.5);
   run(dry.world, 0.2);
   CHECK(dry.v(0) == doctest::Approx(0.5).epsilon(1e-9));
 }
 
-TEST_CASE("a tendon of a wrong DOF, arm or range is refused by name") {
+TEST_CASE("a tendon with a wrong DOF, arm or range is rejected by name") {
   const auto refused = [](const JointTendonSpec& tendon) {
     RobotSpec spec = pendulum(2);
     spec.joint_tendons = {tendon};
@@ -100,7 +100,7 @@ TEST_CASE("a tendon of a wrong DOF, arm or range is refused by name") {
 
 namespace {
 
-/// A box that moves freely, 2 m x 1 m x 1 m, of 3 kg, whose frame's origin may be off its center.
+/// A free box, 2 m x 1 m x 1 m, of 3 kg, whose frame's origin may be off its center.
 struct Free {
   World world;
   Id<Body> id;
@@ -126,7 +126,7 @@ double damped_fall(double m, double d, double t) {
 
 }  // namespace
 
-TEST_CASE("a body with free damping falls as one in a viscous fluid, in both engines") {
+TEST_CASE("a body with free damping falls as in a viscous fluid, in both engines") {
   for (const auto engine : {DynamicsEngine::clench, DynamicsEngine::ode}) {
     Free free([](BodySpec& b) { b.free_damping = 6; }, {0, 0, 0}, engine);
     run(free.world, 1);
@@ -134,20 +134,20 @@ TEST_CASE("a body with free damping falls as one in a viscous fluid, in both eng
   }
 }
 
-TEST_CASE("free damping stops turning, however strong, and acts on the origin of the frame") {
+TEST_CASE("free damping of any strength stops a rotation, and acts at the origin of the frame") {
   Free turning([](BodySpec& b) { b.free_damping = 1e4; });
   turning.world.set_gravity({0, 0, 0});
   turning.world.set_twist(turning.id, {{0, 0, 0}, {0, 0, 5}});
   run(turning.world, 0.05);
   CHECK(turning.world.twist(turning.id).angular.norm() < 1e-3);
-  // far from the center of mass a falling body begins to turn
+  // if the origin is far from the center of mass, a falling body begins to turn
   Free off([](BodySpec& b) { b.free_damping = 6; }, {1, 0, 0});
   run(off.world, 0.1);
   CHECK(off.world.twist(off.id).angular.y() > 0.01);
   CHECK(std::abs(off.world.twist(off.id).angular.x()) < 1e-12);
 }
 
-TEST_CASE("free friction holds a body until more than it pulls, and free armature is inertia") {
+TEST_CASE("free friction holds a body up to its limit, and free armature adds inertia") {
   Free held([](BodySpec& b) { b.free_friction = 3 * g + 0.1; });
   run(held.world, 0.5);
   CHECK(held.fallen() == 0);
@@ -165,7 +165,7 @@ TEST_CASE("gravity compensation takes a part of a body's weight, in both engines
     run(half.world, 0.5);
     CHECK(half.fallen() == doctest::Approx(0.25 * g * 0.25).epsilon(3e-3));
   }
-  // links that float need no motors
+  // floating links require no motor torques
   RobotSpec spec = pendulum(2);
   for (LinkSpec& link : spec.links) link.body.gravity_compensation = 1;
   World world;
@@ -174,7 +174,7 @@ TEST_CASE("gravity compensation takes a part of a body's weight, in both engines
   for (DofControl& control : world.edit_dynamics().controls) control.mode = ControlMode::effort;
   run(world, 0.2);
   CHECK(world.dofs(id)[0] == doctest::Approx(1).epsilon(1e-9));
-  // nor do motors carry weight twice
+  // and motors do not compensate the weight a second time
   World driven;
   const auto held = driven.add_robot(spec, {});
   driven.set_collision(false);

@@ -12,7 +12,7 @@ using namespace clench::test;
 
 namespace {
 
-// one rod about a vertical axis, so that its weight does nothing; inertia about its end
+// one rod about a vertical axis, so that gravity has no effect; inertia about its end
 struct Arm {
   World world;
   Id<Robot> id;
@@ -40,7 +40,7 @@ struct Arm {
 
 }  // namespace
 
-TEST_CASE("a motor's spring and damper are those of the implicit step, to rounding") {
+TEST_CASE("a motor's spring and damper equal those of the implicit step, up to rounding") {
   Arm arm({.kp = 40, .kd = 3});
   arm.control().target = 0.5;
   double q = 0, v = 0;
@@ -56,7 +56,7 @@ TEST_CASE("a motor's spring and damper are those of the implicit step, to roundi
   }
 }
 
-TEST_CASE("an effort limit holds, and a limit of the joint stops it without bouncing") {
+TEST_CASE("an effort limit holds, and a joint limit stops the joint without bouncing") {
   Arm arm({.max_effort = 2, .kp = 1e6, .kd = 1e3});
   arm.control().target = 3;
   run(arm.world, 0.2);
@@ -74,7 +74,7 @@ TEST_CASE("an effort limit holds, and a limit of the joint stops it without boun
 }
 
 TEST_CASE(
-    "motors without gains come to their target in the time of their natural frequency, without "
+    "motors without gains reach their target in the period of their natural frequency, without "
     "overshoot") {
   Arm arm;
   arm.control().target = 0.3;
@@ -88,9 +88,7 @@ TEST_CASE(
   CHECK(highest < 0.3 + 1e-6);
 }
 
-TEST_CASE(
-    "a trajectory is followed: it begins and ends at rest, and in its middle has 15/8 of the mean "
-    "speed") {
+TEST_CASE("a trajectory begins and ends at rest, and has 15/8 of the mean speed in its middle") {
   Arm arm({.kp = 1e5, .kd = 1e3});
   send_dof(arm.world, arm.id, 0, 1.2, 2);
   const double duration = 15.0 / 8 * 1.2 / 2;
@@ -102,7 +100,7 @@ TEST_CASE(
   CHECK(std::abs(arm.v()) < 1e-3);
 }
 
-TEST_CASE("velocity control keeps a velocity, viscous friction fades it, dry friction stops it") {
+TEST_CASE("velocity control keeps a velocity, viscous friction damps it, dry friction stops it") {
   Arm arm({.kd = 50});
   arm.control() = {.mode = ControlMode::velocity, .velocity = 0.7, .trajectory = {}};
   run(arm.world, 0.5);
@@ -127,17 +125,18 @@ TEST_CASE("velocity control keeps a velocity, viscous friction fades it, dry fri
   CHECK(stops.v() == doctest::Approx(0.5).epsilon(1e-2));
   run(stops.world, 0.6 * time);
   CHECK(stops.v() == 0);
-  // and holds against less
+  // and dry friction holds against a lower effort
   stops.control().effort = 0.19;
   run(stops.world, 0.1);
-  // what a step may leave of a fault
+  // residual tolerance of a step
   CHECK(std::abs(stops.v()) < 1e-11);
   stops.control().effort = 0.21;
   run(stops.world, 0.1);
   CHECK(stops.v() == doctest::Approx(0.01 * 0.1 / stops.inertia).epsilon(1e-6));
 }
 
-TEST_CASE("a joint's spring swings it at the root of stiffness over inertia, armature included") {
+TEST_CASE(
+    "a joint oscillates by its spring at the root of stiffness over inertia, armature included") {
   JointSpec joint;
   joint.spring = 20;
   joint.rest = 0.1;
@@ -147,13 +146,13 @@ TEST_CASE("a joint's spring swings it at the root of stiffness over inertia, arm
   set_step(arm.world, 1e-4);
   const double period = 2 * std::numbers::pi * std::sqrt((arm.inertia + 0.3) / 20);
   run(arm.world, period / 2);
-  // from rest at 0 to the other side of 0.1; implicit springs damp by half a step's turn
+  // from rest at 0 to the other side of 0.1; an implicit spring damps by half a step
   CHECK(arm.q() == doctest::Approx(0.2).epsilon(0.01));
   CHECK(std::abs(arm.v()) < 0.01);
 }
 
 TEST_CASE(
-    "gravity compensation holds an arm out, and without it its motor sags by its weight over its "
+    "gravity compensation keeps an arm horizontal, and without it the motor sags by weight over "
     "stiffness") {
   for (const bool compensated : {true, false}) {
     World world;
@@ -177,7 +176,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("joints that one DOF turns keep their ratio to rounding, whatever pushes one of them") {
+TEST_CASE(
+    "joints that one DOF drives keep their ratio up to rounding under any load on one of them") {
   World world;
   const auto id = world.add_robot(two_finger(DofKind::rigid, 0.5), {});
   const Robot& robot = world.robot(id);
@@ -194,8 +194,8 @@ TEST_CASE("joints that one DOF turns keep their ratio to rounding, whatever push
 }
 
 TEST_CASE(
-    "a breakaway finger leaves its stopped joint behind, closes on, and picks it up when it "
-    "opens") {
+    "a breakaway finger leaves its blocked joint behind, continues to close, and recouples it when "
+    "it opens") {
   World world;
   world.set_gravity({0, 0, 0});
   RobotSpec spec = two_finger(DofKind::breakaway, 0.5);
@@ -205,9 +205,9 @@ TEST_CASE(
   DynamicSettings settings;
   settings.robots[id] = {.gains = {}, .breakaway = true};
   world.set_dynamic_settings(settings);
-  // the other finger would meet it
+  // the other finger would collide with the wall
   for (const int l : {2, 3}) world.set_collision(false, world.robot(id).links[l].body);
-  // a wall before the first link of the right finger alone
+  // a wall in front of the first link of the right finger only
   const Eigen::Vector3d at =
       world.pose(world.robot(id).links[0].body) * Eigen::Vector3d(-0.025, 0, 0);
   world.add_body(body_spec("wall", box(0.01, 0.01, 0.01)), BodyKind::obstacle,
@@ -225,27 +225,27 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the joints of a compliant DOF share their tendon's force by their springs and yield to what "
-    "they touch") {
+    "the joints of a compliant DOF share their tendon's force according to their springs and yield "
+    "to contacts") {
   World world;
   world.set_gravity({0, 0, 0});
   RobotSpec spec = two_finger(DofKind::compliant, 0.5);
   for (LinkSpec& link : spec.links) link.joints[0].spring = 0.5, link.joints[0].viscous = 0.002;
   for (DofSpec& dof : spec.dofs) dof.max_effort = 0.2;
   const auto id = world.add_robot(spec, {});
-  world.set_collision(false);  // the fingers would meet
+  world.set_collision(false);  // the fingers would collide
   close_by_motors(world, id, 1);
   run(world, 1);
-  // in free air they stand where the tendon has them
+  // in free air they are at the tendon's position
   const double tendon = world.dofs(id)[0];
   CHECK(tendon > 0.1);
   CHECK(world.joints(id)[0] == doctest::Approx(tendon).epsilon(0.05));
   CHECK(world.joints(id)[1] == doctest::Approx(0.5 * tendon).epsilon(0.05));
 }
 
-TEST_CASE("a base that moves as it is told carries the arm on it, and jerks it by its inertia") {
-  // the arm hangs along -z; its base is jerked along x: the rod's center stays, but for what the
-  // hinge pulls
+TEST_CASE("a base with a given motion carries the arm on it, and its jerk acts by inertia") {
+  // the arm hangs along -z; its base is jerked along x: the rod's center stays, except for the pull
+  // of the hinge
   World world;
   const auto id = add_free_robot(world, pendulum(1));
   world.set_gravity({0, 0, 0});
@@ -254,7 +254,7 @@ TEST_CASE("a base that moves as it is told carries the arm on it, and jerks it b
   stepper.solve(1e-6);
   const Body& rod = world.body(world.robot(id).links[0].body);
   const double inertia = rod.inertia_per_mass(1, 1) + 0.25;
-  // momentum about the hinge: I w = m l/2 v, in the sense that lets the center behind
+  // angular momentum about the hinge: I w = m l/2 v, in the sense that leaves the center behind
   CHECK(std::abs(world.dof_velocities(id)[0]) == doctest::Approx(0.5 / inertia).epsilon(1e-9));
   CHECK(world.twist(world.robot(id).links[0].body).linear.x() ==
         doctest::Approx(1 - 0.25 / inertia).epsilon(1e-9));
@@ -262,9 +262,7 @@ TEST_CASE("a base that moves as it is told carries the arm on it, and jerks it b
   CHECK(world.pose(world.robot(id).base).position.x() == doctest::Approx(0.1).epsilon(1e-9));
 }
 
-TEST_CASE(
-    "what a motor is given and what its controller adds stay within its largest effort together, "
-    "and are told") {
+TEST_CASE("the sum of a motor's given effort and its controller's effort is limited and reported") {
   Arm arm({.max_effort = 2, .kp = 1e6, .kd = 1e3});
   arm.control() = {.target = 3, .effort = 1.5, .trajectory = {}};
   run(arm.world, 0.1);
@@ -275,7 +273,7 @@ TEST_CASE(
   CHECK(arm.world.dynamics()->dof_efforts[0] == -0.7);
 }
 
-TEST_CASE("a joint that stands beyond its limit comes back gently") {
+TEST_CASE("a joint outside its limits returns slowly") {
   JointSpec joint;
   joint.min = -0.5, joint.max = 0.4;
   Arm arm({}, joint);

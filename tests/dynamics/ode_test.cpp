@@ -20,7 +20,7 @@ void use(World& world, DynamicsEngine engine) {
   world.set_dynamic_settings(settings);
 }
 
-/// The same world, one for each engine.
+/// Copies of one world, one for each engine.
 struct Both {
   explicit Both(const World& world) : ours(world), ode(world) { use(ode, DynamicsEngine::ode); }
   void run(double seconds) {
@@ -45,7 +45,7 @@ Id<Body> add_block(World& world, const std::string& name, const Vector3d& size, 
   return world.add_body(spec, kind, X);
 }
 
-// a block on a slope, at the gap at which bodies rest
+// a block on a slope, at the gap of bodies at rest
 Id<Body> add_slope(World& world, double angle, double mu) {
   world.set_friction("wood", "wood", {mu, mu});
   const Pose turn = Pose::turn(angle, Vector3d::UnitY());
@@ -55,8 +55,8 @@ Id<Body> add_slope(World& world, double angle, double mu) {
                    0.44);
 }
 
-/// Links in a row that hang from a base, each with hinges about y (several a link: one along each
-/// of the axes given), or sliders.
+/// A serial chain of links that hangs from a base, each link with hinges about y (for several axes:
+/// one hinge about each), or with sliders.
 RobotSpec chain(int links, const std::vector<Vector3d>& axes,
                 JointKind kind = JointKind::revolute) {
   RobotSpec robot;
@@ -84,7 +84,7 @@ RobotSpec chain(int links, const std::vector<Vector3d>& axes,
   return robot;
 }
 
-/// Nothing holds its joints, and it feels its weight.
+/// Adds a robot with free joints that is subject to gravity.
 Id<Robot> add_loose(World& world, const RobotSpec& spec) {
   const auto id = world.add_robot(spec, {});
   DynamicSettings settings = world.dynamic_settings();
@@ -108,18 +108,18 @@ void check_dofs(Both& both, Id<Robot> id, double seconds, double within) {
 
 }  // namespace
 
-TEST_CASE("ODE: a body falls and tumbles as with our solver") {
+TEST_CASE("ODE: a body falls and tumbles as with Clench's solver") {
   World world;
   const auto body = add_block(world, "block", {0.02, 0.06, 0.1}, Pose::translation({0, 0, 5}), 0.5);
   world.set_twist(body, {{0.3, -0.1, 1}, {0.1, 8, 0.1}});
   Both both(world);
   both.run(0.5);
-  // nothing acts but gravity: rounding
+  // with gravity only: rounding errors
   CHECK(both.apart(body) < 1e-12);
   CHECK(both.turned(body) < 1e-12);
 }
 
-TEST_CASE("ODE: a load at a body and the velocity of an obstacle act as with our solver") {
+TEST_CASE("ODE: loads on bodies and velocities of obstacles act as with Clench's solver") {
   World world;
   world.set_friction("wood", "wood", {0.5, 0.5});
   const auto table = add_block(world, "table", {1, 1, 0.1}, {}, 1, BodyKind::obstacle);
@@ -144,8 +144,8 @@ TEST_CASE("ODE: a load at a body and the velocity of an obstacle act as with our
 }
 
 TEST_CASE(
-    "ODE: a block slides down a slope at the acceleration of the book, and sticks below the "
-    "friction angle") {
+    "ODE: a block slides down a slope at the textbook acceleration, and sticks below the friction "
+    "angle") {
   const double angle = 30 * std::numbers::pi / 180, limit = std::tan(angle);
   {
     World world;
@@ -170,7 +170,7 @@ TEST_CASE(
   CHECK(both.ode.twist(block).linear.norm() < 1e-8);
 }
 
-TEST_CASE("ODE: what a resting block presses with is its weight, whichever engine says so") {
+TEST_CASE("ODE: the contact force of a resting block is its weight with both engines") {
   World world;
   world.set_friction("wood", "wood", {0.5, 0.5});
   add_block(world, "table", {1, 1, 0.1}, {}, 1, BodyKind::obstacle);
@@ -185,7 +185,7 @@ TEST_CASE("ODE: what a resting block presses with is its weight, whichever engin
   }
 }
 
-TEST_CASE("ODE: hanging links swing as with our solver") {
+TEST_CASE("ODE: hanging links swing as with Clench's solver") {
   SUBCASE("one hinge") {
     World world;
     const auto id = add_loose(world, chain(1, {Vector3d::UnitY()}));
@@ -194,14 +194,14 @@ TEST_CASE("ODE: hanging links swing as with our solver") {
     // joints of ODE yield by 1e-9 of an impulse
     check_dofs(both, id, 1, 1e-7);
   }
-  SUBCASE("three hinges: forces of their own turning") {
+  SUBCASE("three hinges: gyroscopic forces") {
     World world;
     const auto id = add_loose(world, chain(3, {Vector3d::UnitY()}));
     world.set_dofs(id, Eigen::Vector3d(1.2, 0.5, -0.8));
     Both both(world);
     check_dofs(both, id, 0.6, 1e-6);
   }
-  SUBCASE("across one another, two a link: what is between them weighs 1e-6 of a link") {
+  SUBCASE("crossed axes, two per link: the body in between weighs 1e-6 of a link") {
     World world;
     const auto id = add_loose(world, chain(2, {Vector3d::UnitY(), Vector3d::UnitX()}));
     world.set_dofs(id, Eigen::Vector4d(1.2, 0.5, -0.8, 0.4));
@@ -236,7 +236,7 @@ TEST_CASE("ODE: hanging links swing as with our solver") {
   }
 }
 
-TEST_CASE("ODE: motors hold, follow and give what they are told") {
+TEST_CASE("ODE: motors hold and follow targets and apply given efforts") {
   World world;
   RobotSpec spec = chain(2, {Vector3d::UnitY()});
   spec.dofs[0].max_effort = 0.5;
@@ -254,7 +254,7 @@ TEST_CASE("ODE: motors hold, follow and give what they are told") {
         doctest::Approx(both.ours.dynamics()->dof_efforts[1]).epsilon(1e-3));
 }
 
-TEST_CASE("ODE: joints of one DOF keep their ratio, which no joint of ODE does") {
+TEST_CASE("ODE: joints of one DOF keep their ratio, for which ODE has no joint") {
   World world;
   RobotSpec spec = chain(3, {Vector3d::UnitY()});
   for (int l = 1; l < 3; ++l) {
@@ -268,7 +268,7 @@ TEST_CASE("ODE: joints of one DOF keep their ratio, which no joint of ODE does")
   check_dofs(both, id, 1, 1e-6);
 }
 
-TEST_CASE("ODE: a floating robot, and one on a base that is shaken") {
+TEST_CASE("ODE: a floating robot, and a robot on a moving base") {
   World world;
   const auto id = add_loose(world, chain(2, {Vector3d::UnitY()}));
   world.set_dofs(id, Eigen::Vector2d(1.2, 0.5));
@@ -278,7 +278,7 @@ TEST_CASE("ODE: a floating robot, and one on a base that is shaken") {
     world.set_dynamic_settings(settings);
     world.set_twist(world.robot(id).base, {{0.2, 0, 1}, {0, 1, 2}});
   }
-  SUBCASE("told") { world.set_twist(world.robot(id).base, {{0.2, 0, 1}, {0, 1, 2}}); }
+  SUBCASE("prescribed") { world.set_twist(world.robot(id).base, {{0.2, 0, 1}, {0, 1, 2}}); }
   Both both(world);
   check_dofs(both, id, 0.5, 1e-5);
   CHECK(both.apart(world.robot(id).base) < 1e-6);
@@ -323,7 +323,7 @@ TEST_CASE("ODE: two jaws squeeze and hold a block that falls when they open") {
   CHECK(std::abs(both.ode.pose(block).position.z()) < 1e-6);
   CHECK(both.apart(block) < 1e-5);
   CHECK((both.ours.dofs(hand) - both.ode.dofs(hand)).norm() < 1e-5);
-  // how much of the weight each jaw bears is open: both stand
+  // the share of each jaw in the weight is undetermined: only rest is checked
   for (World* w : {&both.ours, &both.ode}) {
     double lifted = 0;
     for (const Manifold& m : w->dynamics()->manifolds) {
@@ -341,7 +341,8 @@ TEST_CASE("ODE: two jaws squeeze and hold a block that falls when they open") {
   CHECK(both.apart(block) < 1e-2);
 }
 
-TEST_CASE("ODE: a Barrett hand, whose joints are coupled, closes on a block as with our solver") {
+TEST_CASE(
+    "ODE: a Barrett hand, whose joints are coupled, closes on a block as with Clench's solver") {
   World world;
   const auto hand =
       add_robot(world, read_robot("models/hands/barrett/barrett.cfg", {.root = "."}), {});
@@ -358,7 +359,7 @@ TEST_CASE("ODE: a Barrett hand, whose joints are coupled, closes on a block as w
   CHECK(both.apart(object) < 2e-3);
 }
 
-TEST_CASE("ODE: the same world gives the same bits again, and in another stepper") {
+TEST_CASE("ODE: repeated runs are bit-identical, also with another stepper") {
   World world;
   const auto block = add_slope(world, 0.4, 0.3);
   use(world, DynamicsEngine::ode);
@@ -372,7 +373,7 @@ TEST_CASE("ODE: the same world gives the same bits again, and in another stepper
   CHECK(world.pose(block) == other.pose(block));
 }
 
-TEST_CASE("ODE: masses of all sizes end in a step or in a sentence") {
+TEST_CASE("ODE: masses of any size give a valid step or a one-sentence error") {
   World world;
   add_block(world, "table", {1, 1, 0.1}, {}, 1, BodyKind::obstacle);
   add_block(world, "feather", {0.06, 0.06, 0.04}, Pose::translation({0, 0, 0.0701}), 1e-12);

@@ -13,13 +13,14 @@ using test::solve_friction;
 
 namespace {
 
-/// Of each kind, or as many as CLENCH_FRICTION_PROBLEMS says: 20000 make it 100,000.
+/// Number of problems of each kind: the default, or that of CLENCH_FRICTION_PROBLEMS (20000 give
+/// 100,000 in total).
 int problems() {
   const char* given = std::getenv("CLENCH_FRICTION_PROBLEMS");
   return given ? std::atoi(given) : test::cases(600);
 }
 
-/// What rounding alone makes of W r + q, whose terms are at most sqrt(W_ii W_jj) |r_j|.
+/// Rounding error of W r + q, whose terms are at most sqrt(W_ii W_jj) |r_j|.
 double rounding(const FrictionProblem& problem, const VectorXd& r) {
   const VectorXd root = problem.W.diagonal().cwiseSqrt();
   return 1e-15 * root.maxCoeff() * root.dot(r.cwiseAbs());
@@ -32,7 +33,7 @@ void check_law(const FrictionProblem& problem, const FrictionSolution& solution)
   CHECK(std::abs(solution.residual - fault) <= 1e-13 * largest + 2 * rounding(problem, solution.r));
 }
 
-/// Law and least fault of problems that rest would solve: all of them are.
+/// Checks the law and that at most the given share of solvable problems is unsolved.
 void check_all_solved(uint64_t seed, const FrictionKind& kind, double allowed = 0) {
   FrictionSolver solver;
   int unsolved = 0;
@@ -55,7 +56,8 @@ TEST_CASE("random contacts are all solved") {
   check_all_solved(1, {.rows = false, .duplicates = false});
 }
 
-TEST_CASE("random contacts with limits, motors, equations, some of them twice, are all solved") {
+TEST_CASE(
+    "random contacts with limits, motors and equations, some of them duplicated, are all solved") {
   check_all_solved(2, {});
 }
 
@@ -64,13 +66,13 @@ TEST_CASE("random contacts of masses from 1 to 1e6 are all solved") {
 }
 
 TEST_CASE(
-    "of masses from 1 to 1e10, whose impulses are beyond 16 digits, all but two in a thousand "
-    "are") {
+    "of masses from 1 to 1e10, whose impulses exceed 16 digits, all but two in a thousand are "
+    "solved") {
   check_all_solved(4, {.mass_ratio = 1e10}, 1.0 / 500);
 }
 
 TEST_CASE(
-    "demands that contradict each other: what is not solved is proved to be so, and has the least "
+    "contradictory demands: unsolved problems are proved infeasible, and have the least "
     "violation") {
   FrictionSolver solver;
   int unsolved = 0;
@@ -96,8 +98,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "compliant contacts of moderate friction: the same impulses as by projecting them again and "
-    "again") {
+    "compliant contacts of moderate friction: the same impulses as by fixed-point projection") {
   FrictionSolver solver;
   for (int i = 0; i < test::cases(200); ++i) {
     Random random(6, i);
@@ -123,8 +124,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "redundant contacts share their load the same way wherever the solver starts, and the same "
-    "bits come twice") {
+    "redundant contacts share their load the same way from any starting point, bit-identically "
+    "when repeated") {
   FrictionSolver solver;
   int apart = 0;
   for (int i = 0; i < test::cases(200); ++i) {
@@ -141,12 +142,12 @@ TEST_CASE(
       if ((warm.r - cold.r).norm() > 1e-6 * cold.r.norm()) ++apart;
     }
   }
-  // friction may have several solutions
+  // the solution with friction may not be unique
   CHECK(apart <= 6);
 }
 
 TEST_CASE(
-    "heaps of many contacts that something strikes are solved from the forces before, in a few "
+    "heaps of many contacts after an impact are solved from the previous forces, in a few "
     "iterations") {
   FrictionSolver solver;
   int many = 0, iterations = 0;
@@ -164,13 +165,13 @@ TEST_CASE(
     iterations += solution.iterations;
   }
   CHECK(many >= test::cases(100) / 3);
-  // 12 each; 81 where the other ways come first
+  // 12 each; 81 if the other strategies come first
   CHECK(iterations < 25 * test::cases(100));
 }
 
 TEST_CASE(
-    "steps of a motion, whose velocities change by a thousandth, need a few iterations each, "
-    "redundant contacts or not") {
+    "steps of a motion with velocity changes of a thousandth take a few iterations each, with or "
+    "without redundant contacts") {
   FrictionSolver solver;
   double iterations = 0;
   int steps = 0, many = 0;
@@ -196,7 +197,7 @@ TEST_CASE(
   CHECK(many < steps / 25);
 }
 
-TEST_CASE("pyramids: random contacts are solved, and with many edges they are cones") {
+TEST_CASE("pyramids: random contacts are solved, and many edges approach the cone") {
   FrictionSolver solver;
   int solved = 0;
   for (int i = 0; i < test::cases(150); ++i) {

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// a slab of 1 x 0.6 x 0.1 m, and something on it
+// a slab of 1 x 0.6 x 0.1 m, and a body on it
 struct Pair {
   World world;
   Manifold manifold;
@@ -36,7 +36,7 @@ struct Pair {
   }
 };
 
-// distance of a point of one from the nearest point of the other
+// distance of a point of one manifold from the nearest point of the other
 double apart(const ManifoldPoint& point, const Manifold& other, bool of_a) {
   double out = 1;
   for (const ManifoldPoint& p : other.points)
@@ -48,7 +48,7 @@ const Mesh block = box(0.06, 0.06, 0.04);
 
 }  // namespace
 
-TEST_CASE("corners that slide over a face touch where measuring anew finds them") {
+TEST_CASE("contacts of corners that slide over a face equal newly computed contacts") {
   for (const bool slab_first : {true, false}) {
     int slid = 0;
     Pair pair(slab_first, block, Pose::translation({0.1, 0.05, 0.07 + 3e-5}));
@@ -67,7 +67,7 @@ TEST_CASE("corners that slide over a face touch where measuring anew finds them"
       const Manifold fresh = pair.fresh();
       REQUIRE(fresh.points.size() == followed.points.size());
       CHECK(fresh.X_AB == followed.X_AB);
-      // coordinates of some meters round to 1e-15
+      // coordinates of some meters have rounding errors of 1e-15
       CHECK(std::abs(fresh.clearance - followed.clearance) < 1e-14);
       for (const ManifoldPoint& p : fresh.points) {
         for (const bool of_a : {true, false}) CHECK(apart(p, followed, of_a) < 1e-14);
@@ -78,16 +78,17 @@ TEST_CASE("corners that slide over a face touch where measuring anew finds them"
   }
 }
 
-TEST_CASE("what may touch elsewhere is measured anew, and stays as it was until then") {
+TEST_CASE(
+    "following rejects motions that may create other contacts, and leaves the manifold unchanged") {
   Pair pair(true, block, Pose::translation({0.1, 0.05, 0.07 + 3e-5}));
   const auto at = [&](const Vector3d& p) { pair.world.set_pose(pair.mover, Pose::translation(p)); };
   SUBCASE("over the edge") { at({0.49, 0.05, 0.07 + 3e-5}); }
   SUBCASE("lifted") { at({0.1, 0.05, 0.07 + 2e-4}); }
-  SUBCASE("in it") { at({0.1, 0.05, 0.07 - 1e-5}); }
-  SUBCASE("threshold") { pair.world.set_contact_threshold(2e-5); }
-  SUBCASE("soft") { pair.world.set_elastic_modulus(pair.mover, 1e6); }
+  SUBCASE("overlapping") { at({0.1, 0.05, 0.07 - 1e-5}); }
+  SUBCASE("smaller threshold") { pair.world.set_contact_threshold(2e-5); }
+  SUBCASE("soft body") { pair.world.set_elastic_modulus(pair.mover, 1e6); }
   SUBCASE("on another triangle") { at({-0.3, 0.25, 0.07 + 3e-5}); }
-  SUBCASE("one corner away, another come near") {
+  SUBCASE("one corner leaves, another approaches") {
     pair.world.set_pose(pair.mover, {Eigen::Quaterniond(Eigen::AngleAxisd(0.01, Vector3d::UnitX())),
                                      {0.1, 0.05, 0.0703}});
   }
@@ -98,7 +99,7 @@ TEST_CASE("what may touch elsewhere is measured anew, and stays as it was until 
     CHECK(pair.manifold.points[i].p_a == before.points[i].p_a);
 }
 
-TEST_CASE("a foot that comes near the face beside those that touch is a contact of its own") {
+TEST_CASE("following rejects a motion that brings another foot near the face") {
   // legs of a stool: the fourth is 0.15 mm shorter
   Mesh stool;
   for (const double x : {-0.05, 0.05})
@@ -119,7 +120,7 @@ TEST_CASE("a foot that comes near the face beside those that touch is a contact 
   CHECK_FALSE(follow_sliding(pair.world, followed));
 }
 
-TEST_CASE("only convex bodies lend their faces") {
+TEST_CASE("following requires convex bodies") {
   // a trough: the block may touch its walls
   const Mesh trough =
       joined(box(1, 0.6, 0.1), moved(box(1, 0.1, 0.3), Pose::translation({0, 0.25, 0.2})));

@@ -23,7 +23,7 @@ static VectorXd impulses(const FrictionProblem& problem) {
   return solution.r;
 }
 
-TEST_CASE("a body of 2 kg on the ground opens, sticks or slides against its velocity") {
+TEST_CASE("a body of 2 kg on the ground lifts off, sticks or slides according to its velocity") {
   const MatrixXd W = MatrixXd::Identity(3, 3) / 2;
   CHECK(impulses(one_contact(W, Vector3d(0.1, 3, 4), 0.5)).norm() == 0);
   CHECK((impulses(one_contact(W, Vector3d(-1, 0.3, -0.3), 0.5)) - Vector3d(2, -0.6, 0.6)).norm() <
@@ -36,15 +36,16 @@ TEST_CASE("a body of 2 kg on the ground opens, sticks or slides against its velo
 }
 
 TEST_CASE("torsion shares the cone with sliding") {
-  // 2 kg, and a moment of inertia that makes 1/2 of the torsion row as well
+  // 2 kg, and a moment of inertia for which the torsion row is 1/2 as well
   const MatrixXd W = MatrixXd::Identity(4, 4) / 2;
   const Vector4d sticks(-1, 0.1, 0.1, -0.4), slides(-1, 0, 3, -4);
   CHECK((impulses(one_contact(W, sticks, 0.5)) - Vector4d(2, -0.2, -0.2, 0.8)).norm() < 1e-15);
   CHECK((impulses(one_contact(W, slides, 0.5)) - Vector4d(2, 0, -0.6, 0.8)).norm() < 1e-15);
 }
 
-TEST_CASE("a contact whose sliding presses it on, or lifts it") {
-  // Painlevé's: an impulse along the surface moves the point into it or out of it
+TEST_CASE("a contact that sliding presses together, or lifts") {
+  // as in Painlevé's paradox: an impulse along the surface moves the point towards it or away from
+  // it
   for (const double coupling : {-1.9, -0.5, 0.5, 1.9}) {
     MatrixXd W = MatrixXd::Identity(3, 3);
     W(1, 1) = W(2, 2) = 4;
@@ -57,7 +58,7 @@ TEST_CASE("a contact whose sliding presses it on, or lifts it") {
         CHECK(std::abs(u[0]) < 1e-11);
         const double friction = r.tail(2).norm(), speed = u.tail(2).norm();
         CHECK(friction <= mu * r[0] + 1e-11);
-        // against the sliding, as much as there is of it
+        // friction opposes the sliding, with the maximal force
         if (speed > 1e-6) CHECK(r.tail(2).dot(u.tail(2)) == doctest::Approx(-mu * r[0] * speed));
       }
   }
@@ -82,7 +83,7 @@ static FrictionProblem box(const Vector3d& velocity, double mu) {
   return problem;
 }
 
-TEST_CASE("the four corners of a box bear a quarter each, wherever the solver starts") {
+TEST_CASE("the four corners of a box carry a quarter each, from any starting point") {
   const FrictionProblem problem = box({0, 0, -0.01}, 0.5);
   for (const double start : {0.0, 0.1, 7.0}) {
     VectorXd warm = VectorXd::Zero(12);
@@ -95,7 +96,8 @@ TEST_CASE("the four corners of a box bear a quarter each, wherever the solver st
   }
 }
 
-TEST_CASE("a box slides as a point does, and tips where its friction is higher than it is wide") {
+TEST_CASE(
+    "a box slides as a point does, and tips if its friction exceeds its ratio of width to height") {
   FrictionSolution solution = solve_friction(box({1, 0, -0.01}, 0.5), {});
   CHECK(solution.solved);
   double load = 0, friction = 0;
@@ -105,12 +107,12 @@ TEST_CASE("a box slides as a point does, and tips where its friction is higher t
   CHECK(solution.u[1] == doctest::Approx(0.995));
   solution = solve_friction(box({1, 0, -0.01}, 1.5), {});
   CHECK(solution.solved);
-  // the two behind lift off
+  // the two rear corners lift off
   CHECK(solution.r[0] == 0);
   CHECK(solution.u[0] > 0);
 }
 
-TEST_CASE("limits, motors and equations") {
+TEST_CASE("limits, motors and equations are solved together") {
   FrictionProblem problem{
       .W = MatrixXd::Identity(4, 4), .q = Vector4d(-3, 3, 5, -0.5), .blocks = {}};
   const double infinity = std::numeric_limits<double>::infinity();
@@ -122,10 +124,10 @@ TEST_CASE("limits, motors and equations") {
   CHECK((solution.u - Vector4d(0, 3, 3, 0)).norm() < 1e-15);
 }
 
-TEST_CASE("a warm start that is a solution is the answer, bit for bit") {
+TEST_CASE("a warm start that is a solution is returned bit-exactly") {
   const FrictionProblem problem = box({0, 0, -0.01}, 0.5);
   VectorXd uneven = VectorXd::Zero(12);
-  uneven[0] = uneven[9] = 0.005;  // two opposite corners bear all
+  uneven[0] = uneven[9] = 0.005;  // two opposite corners carry all
   const FrictionSolution solution = solve_friction(problem, uneven);
   CHECK(solution.solved);
   CHECK(solution.iterations == 0);
@@ -133,7 +135,7 @@ TEST_CASE("a warm start that is a solution is the answer, bit for bit") {
   CHECK_FALSE(solution.fell_back);
 }
 
-TEST_CASE("opposite limits that ask for the impossible: half of it each, without great impulses") {
+TEST_CASE("contradictory limits are violated by half each, without large impulses") {
   MatrixXd W(2, 2);
   W << 1, -1, -1, 1;
   for (const auto& blocks : {std::vector<FrictionProblem::Block>{{.row = 0}, {.row = 1}},
@@ -150,7 +152,7 @@ TEST_CASE("opposite limits that ask for the impossible: half of it each, without
   }
 }
 
-TEST_CASE("a contact that no impulse moves is left alone, and says so when it sinks in") {
+TEST_CASE("a contact that no impulse moves gets no impulse, and is unsolved if it approaches") {
   FrictionProblem problem = one_contact(MatrixXd::Zero(3, 3), Vector3d(0.5, 1, 0), 0.5);
   CHECK(impulses(problem).norm() == 0);
   problem.q[0] = -0.5;
@@ -160,7 +162,7 @@ TEST_CASE("a contact that no impulse moves is left alone, and says so when it si
   CHECK(solution.residual > 0.4);
 }
 
-TEST_CASE("nothing to solve, and what is no number") {
+TEST_CASE("an empty problem is solved, and invalid numbers are not") {
   const FrictionSolution none =
       solve_friction({.W = MatrixXd(0, 0), .q = VectorXd(0), .blocks = {}}, {});
   CHECK(none.solved);
@@ -184,13 +186,13 @@ TEST_CASE("nothing to solve, and what is no number") {
   negative.blocks[0].mu = -1;
   bounds.blocks = {{.row = 0, .low = 1}, {.row = 1}, {.row = 2}};
   refused(negative), refused(bounds);
-  // a start that is none
+  // an invalid warm start is ignored
   CHECK(solve_friction(good(), Vector3d(nan, 0, 0)).r == solve_friction(good(), {}).r);
   CHECK(solve_friction(good(), VectorXd::Ones(2)).r == solve_friction(good(), {}).r);
 }
 
-TEST_CASE("a feather between boulders") {
-  // ground, 1e-3 kg, 1e5 kg: each contact a row
+TEST_CASE("a light body between heavy bodies is solved") {
+  // ground, 1e-3 kg, 1e5 kg: one row per contact
   MatrixXd W(2, 2);
   W << 1e3, -1e3, -1e3, 1e3 + 1e-5;
   const Eigen::Vector2d q(-0.01, 0);
@@ -202,7 +204,7 @@ TEST_CASE("a feather between boulders") {
   CHECK(solution.r[1] == doctest::Approx(0.01 * 1e5));
 }
 
-TEST_CASE("a pyramid's friction is on a polygon, and least square to its edges") {
+TEST_CASE("a pyramid limits friction to a polygon, which is smallest between its edges") {
   const MatrixXd W = MatrixXd::Identity(3, 3) / 2;
   const FrictionSolution along = solve_friction(one_contact(W, Vector3d(-1, 3, 0.1), 0.5), {},
                                                 {.cone = FrictionCone::pyramid, .edges = 4});

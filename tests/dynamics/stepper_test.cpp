@@ -14,7 +14,7 @@ static World stack() {
   return world;
 }
 
-TEST_CASE("what has come to rest costs no iterations, and stands exactly") {
+TEST_CASE("a world at rest costs no iterations, and stays exactly at rest") {
   World world = stack();
   Stepper stepper(world);
   stepper.run(1);
@@ -26,7 +26,7 @@ TEST_CASE("what has come to rest costs no iterations, and stands exactly") {
   for (const auto id : world.bodies()) CHECK(world.twist(id).is_zero());
 }
 
-TEST_CASE("a time that is a sum of many steps has as many steps") {
+TEST_CASE("a duration that is a sum of many steps takes as many steps") {
   World world;
   Stepper stepper(world);
   double time = 0;

@@ -1,4 +1,4 @@
-// Steps that are stopped: when, and what they leave behind.
+// Stopped steps: response times, and the state afterwards.
 #include "clench/base/error.h"
 #include "clench/base/watched.h"
 #include "clench/dynamics/stepper.h"
@@ -9,7 +9,7 @@ using namespace clench::test;
 
 namespace {
 
-// boxes side by side on a table, so near that neighbors touch
+// boxes side by side on a table, so close that neighbors touch
 World crowd(int side, DynamicsEngine engine = DynamicsEngine::clench,
             FrictionCone cone = FrictionCone::round) {
   World world;
@@ -26,7 +26,7 @@ World crowd(int side, DynamicsEngine engine = DynamicsEngine::clench,
   return world;
 }
 
-// bits of all that a step changes
+// all data that a step changes, bit-exactly
 struct Moment {
   uint64_t hash;
   double time;
@@ -59,9 +59,7 @@ uint64_t checks_of_step(World& world) {
 
 }  // namespace
 
-TEST_CASE(
-    "a step that is stopped leaves the world as it was, and the next one is as if nothing had "
-    "been") {
+TEST_CASE("a stopped step leaves the world unchanged, and the next step is unaffected") {
   for (const FrictionCone cone : {FrictionCone::round, FrictionCone::pyramid}) {
     World world = crowd(2, DynamicsEngine::clench, cone), other = world;
     Stepper(world).run(2 * dt);
@@ -84,7 +82,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the halves of a step stop as a step does") {
+TEST_CASE("the halves of a step stop like a step") {
   World world = crowd(2);
   Stepper stepper(world);
   stepper.run(dt);
@@ -100,19 +98,19 @@ TEST_CASE("the halves of a step stop as a step does") {
   }
 }
 
-TEST_CASE("the more a step has to do, the more often it checks") {
+TEST_CASE("steps with more work check for stops more often") {
   for (const FrictionCone cone : {FrictionCone::round, FrictionCone::pyramid}) {
     World few = crowd(2, DynamicsEngine::clench, cone),
           many = crowd(3, DynamicsEngine::clench, cone);
     const uint64_t least = checks_of_step(few), most = checks_of_step(many);
-    // of each pair of bodies and of each iteration at least
+    // at least once per pair of bodies, and regularly during iterations
     const auto& report = many.dynamics()->report;
     CHECK(most > least);
     CHECK(most >= many.dynamics()->manifolds.size() + static_cast<uint64_t>(report.iterations) / 8);
   }
 }
 
-TEST_CASE("a step that fails leaves the world as it was: ODE takes so many contacts, and no more") {
+TEST_CASE("a failed step leaves the world unchanged: ODE has a limited number of contacts") {
   World world = crowd(9, DynamicsEngine::ode);
   const Moment before(world);
   std::string said;

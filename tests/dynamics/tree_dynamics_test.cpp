@@ -30,7 +30,7 @@ RobotSpec crooked() {
 
 }  // namespace
 
-TEST_CASE("mass matrix: the sum of what each body's Jacobian makes of its mass") {
+TEST_CASE("the mass matrix equals the sum over bodies of mass terms by their Jacobians") {
   World world;
   const auto id = add_free_robot(world, crooked());
   Random random(3);
@@ -52,12 +52,12 @@ TEST_CASE("mass matrix: the sum of what each body's Jacobian makes of its mass")
              J.bottomRows(3).transpose() * R * (body.mass * body.inertia_per_mass) * R.transpose() *
                  J.bottomRows(3);
     }
-    // entries of some ten, sums of some hundred terms
+    // entries of about ten, sums of some hundred terms
     CHECK((dynamics.mass_matrix() - sum).cwiseAbs().maxCoeff() < 1e-11);
   }
 }
 
-TEST_CASE("bias: Lagrange's equation by finite differences of the energies") {
+TEST_CASE("the bias satisfies Lagrange's equation by finite differences of the energies") {
   World world;
   const auto id = add_free_robot(world, crooked());
   Random random(5);
@@ -90,7 +90,7 @@ TEST_CASE("bias: Lagrange's equation by finite differences of the energies") {
     TreeDynamics dynamics;
     dynamics.place(world, system.trees[0]);
     const Eigen::VectorXd bias = dynamics.find_bias(v, Vector6d::Zero(), world.gravity());
-    // second differences of numbers of some ten at 1e-5
+    // second differences of numbers of about ten at 1e-5
     CHECK((bias - expected).cwiseAbs().maxCoeff() < 1e-6);
 
     // and the inverse: forces that cause these accelerations
@@ -107,7 +107,8 @@ TEST_CASE("bias: Lagrange's equation by finite differences of the energies") {
 }
 
 TEST_CASE(
-    "a pendulum swings as its elliptic integral says, nearer with shorter steps in proportion") {
+    "a pendulum swings with the period of the elliptic integral, with first-order convergence in "
+    "the step") {
   // a rod about its end: w^2 = 3 g / 2 l; from 60 degrees the period is longer by the
   // arithmetic-geometric mean
   const double amplitude = std::numbers::pi / 3;
@@ -132,7 +133,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a double pendulum keeps its energy, nearer with shorter steps in proportion") {
+TEST_CASE("a double pendulum keeps its energy, with first-order convergence in the step") {
   double before = 0;
   for (const double step : {1e-3, 5e-4, 2.5e-4}) {
     World world;
@@ -153,14 +154,14 @@ TEST_CASE("a double pendulum keeps its energy, nearer with shorter steps in prop
   }
 }
 
-TEST_CASE("a robot that floats keeps its momentum, whatever its joints do") {
+TEST_CASE("a floating robot keeps its momentum for any motion of its joints") {
   World world;
   world.set_gravity({0, 0, 0});
   const auto id = add_free_robot(world, crooked(), true);
   world.set_dof_velocities(id, Eigen::Vector3d(3, -2, 0.5));
   world.set_twist(world.robot(id).base, {{0.1, 0.2, -0.1}, {1, 0.5, -2}});
   Stepper stepper(world);
-  stepper.solve(1e-9);  // so that the twists of its links are known
+  stepper.solve(1e-9);  // computes the twists of its links
   const Momentum first = momentum(world);
   stepper.run(0.5);
   const Momentum last = momentum(world);
@@ -168,7 +169,7 @@ TEST_CASE("a robot that floats keeps its momentum, whatever its joints do") {
   CHECK((last.angular - first.angular).norm() < 1e-12 * first.angular.norm());
 }
 
-TEST_CASE("a robot that floats keeps its momentum with what is welded to its links") {
+TEST_CASE("a floating robot keeps its momentum with bodies welded to its links") {
   Random random(9);
   for (int round = 0; round < cases(10); ++round) {
     World world;
@@ -195,7 +196,7 @@ TEST_CASE("a robot that floats keeps its momentum with what is welded to its lin
 }
 
 TEST_CASE(
-    "a free body that turns keeps its angular momentum to rounding, and its energy to the fourth "
+    "a free rotating body keeps its angular momentum up to rounding, and its energy to fourth "
     "order") {
   World world;
   world.set_gravity({0, 0, 0});
@@ -225,7 +226,7 @@ TEST_CASE("slender and flat bodies that spin fast keep energy and angular moment
       const double energy = total(world);
       run(world, 2);
       CHECK((momentum(world).angular - first.angular).norm() < 1e-11 * first.angular.norm());
-      // a tenth of a radian a step of the fourth order
+      // a tenth of a radian per step of fourth order
       CHECK(std::abs(total(world) - energy) < 1e-4 * energy);
     }
 }

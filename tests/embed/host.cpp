@@ -1,4 +1,4 @@
-// Uses the engine as a library, and lends it a Lua state.
+// Uses the engine as a library, and passes it a Lua state.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -25,7 +25,7 @@ static void use_engine() {
   }
 }
 
-// the state is the host's: its own globals, libraries and functions stay as they are
+// the state belongs to the host: its globals, libraries and functions stay unchanged
 static void lend_lua() {
   lua_State* L = luaL_newstate();
   luaL_openlibs(L);
@@ -53,6 +53,6 @@ static void lend_lua() {
 int main() {
   use_engine();
   lend_lua();
-  lend_lua();  // a second state starts afresh
+  lend_lua();  // a second state is independent
   std::puts("the host is content");
 }

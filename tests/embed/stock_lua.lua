@@ -3,7 +3,7 @@ local clench = require "clench"
 assert(_G.clench == nil, "a module sets no global")
 assert(clench.vec3(1, 2, 3) + {1, 1, 1} == clench.vec3(2, 3, 4))
 
--- this Lua's errors jump: thousands of refusals leave no C++ object behind, and the message is the same
+-- errors of this Lua are longjmps: thousands of errors leak no C++ object, and the message is the same
 for _ = 1, 10000 do
   local ok, message = pcall(function() return clench.pose {xyz = {1, 2}} end)
   assert(not ok and message:find("clench.pose: xyz: expected 3 numbers, got 2", 1, true), message)
@@ -14,7 +14,7 @@ assert(not ok and message:find("did you mean 'pose'?", 1, true))
 -- the standard library is inside the module
 assert(#clench.shapes.box {1, 2, 3}.triangles == 12)
 assert(require "clench.shapes.box" == clench.shapes.box)
--- and comes from nowhere else, whatever lies around
+-- and is loaded from nowhere else, whatever files are nearby
 local path = os.tmpname()
 local file = assert(io.open(path, "w"))
 file:write "error 'a file in place of ours'"

@@ -1,8 +1,8 @@
--- Random calls over the whole API. The same seed makes the same calls.
+-- Random calls over the complete API. The same seed makes the same calls.
 --   clench -q run tests/fuzz/api.lua SEED CALLS [SECONDS]
--- It runs in a folder that may be written into, with models, worlds and seeds to read. Each statement stands in calls.lua
--- there before it runs, so that a crash leaves what repeat.lua repeats. What was reached is printed as `COVERED <returned>
--- <failed> <name>`, with everything that could be. The exit code is 3 when call.lua found something.
+-- Runs in a writable folder with models, worlds and seeds to read. Each statement is written to calls.lua before it runs, so that repeat.lua can
+-- repeat it after a crash. Coverage is printed as `COVERED <returned> <failed> <name>`, with everything that can be reached. The exit code is 3 if
+-- call.lua found something.
 local here = arg[0]:match "^(.*/)" or ""
 local api = dofile(here .. "entries.lua")()
 local values = dofile(here .. "values.lua")
@@ -23,15 +23,15 @@ for _, list in pairs(clench.catalog()) do
   for _, path in ipairs(list) do table.insert(api.files, path:match "models/.*" or path:match "worlds/.*") end
 end
 table.sort(api.files)
--- the small ones oftener
+-- small files are chosen more often
 for _, path in ipairs {"models/objects/cube.iv", "worlds/parallel_jaw_cube.wld", "models/hands/barrett/barrett.cfg"} do
   for _ = 1, 12 do table.insert(api.files, path) end
 end
 
-local pool = {}  -- source of objects by class, and by the classes that it is one of
+local pool = {}  -- source of objects by class, including base classes
 local maker = values.maker(pool, api)
 local made = statements.new(api, maker)
-local count = 0  -- of v
+local count = 0  -- of entries of v
 
 local function remember(class, source)
   while class do
@@ -43,7 +43,7 @@ local function remember(class, source)
   end
 end
 
--- classes of the API alone, as their metatables say
+-- classes of the API only, as named by their metatables
 local is_class = {}
 for _, class in ipairs(api.classes) do is_class[class] = true end
 -- an object that is a table: its metatable names its methods
@@ -115,7 +115,7 @@ local function any_world()
   end
 end
 
--- a world with a hand that holds something; what went before is out of reach, but lives on in v
+-- a world with a hand that holds something; earlier objects are no longer used, but stay alive in v
 local function begin()
   for class in pairs(pool) do pool[class] = nil end
   api.names_of_things, api.members = {}, {}

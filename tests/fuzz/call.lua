@@ -1,5 +1,5 @@
--- Runs one statement of the API's fuzzer, and judges what came of it: a message or a warning that is no sentence, a number
--- that is not finite, seconds. What is wrong is printed as `FINDING <statement> <signature>`, once.
+-- Runs one statement of the API's fuzzer, and checks its outcome: a message or a warning that is not a sentence, a number that is not finite, or a
+-- call that takes seconds is printed as `FINDING <statement> <signature>`, once.
 local here = debug.getinfo(1, "S").source:match "^@(.*/)" or ""
 local deadline = require "clench.deadline"
 local judge = dofile(here .. "judge.lua")
@@ -33,9 +33,9 @@ local function listen(name)
 end
 
 ---@param text string
----@param name string  of what it calls
----@param target? integer  which of v it sets
----@param sensible? boolean  whether all that it is given is finite and as the docs say
+---@param name string  of the called entry
+---@param target? integer  index of v that it sets
+---@param sensible? boolean  whether all arguments are finite and as documented
 ---@return boolean ok
 ---@return any result  the value, or the message
 function call.run(text, name, target, sensible)
@@ -44,7 +44,7 @@ function call.run(text, name, target, sensible)
   listen(name)
   local began = os.clock()
   local limit = deadline(patience)
-  -- stops loops of the statement itself, which call no engine
+  -- stops loops of the statement itself, outside of engine calls
   debug.sethook(function()
     if os.clock() - began > patience then error(impatience, 0) end
   end, "", 1000000)

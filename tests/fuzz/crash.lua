@@ -4,7 +4,7 @@ local function signature(text, code)
   local summary = text:match "([^\n]*: runtime error: [^\n]*)" or text:match "SUMMARY: ([^\n]*)"
     or text:match "(hard rss limit exhausted)" or text:match "ERROR: (AddressSanitizer: [^\n]*)"
   if summary then return (summary:gsub("0x%x+", "N"):gsub("%d%d%d+", "N"):gsub("^.*/src/", "src/"):gsub("%(.-%)", "")) end
-  -- of ulimit -t, SIGXCPU or SIGKILL after it, and of timeout
+  -- exit codes of ulimit -t, of SIGXCPU or SIGKILL after it, and of timeout
   if code == 152 or code == 137 or code == 124 then return "no end" end
   return ("exit code %d"):format(code)
 end

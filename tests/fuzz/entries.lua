@@ -1,5 +1,5 @@
--- What there is to call: every function, method, field, setter and operator of the bindings' own tables and of the packed
--- standard library, with the types that their docs tell, and the keys of the tables that they take.
+-- All callable entries: every function, method, field, setter and operator of the bindings' own tables and of the packed standard library, with the
+-- types from their docs, and the keys of the tables that they take.
 local here = debug.getinfo(1, "S").source:match "^@(.*/)" or ""
 local parse_type = dofile(here .. "types.lua")
 local known = dofile(here .. "known.lua")
@@ -7,7 +7,7 @@ local examples = dofile(here .. "examples.lua")
 local doc = require "clench.host.doc"
 local packed_docs = require "clench.signature.packed_docs"
 
--- a type's own text, for fields that hold the same
+-- a text that identifies a type, for fields with equal contents
 local function key_of(kind)
   if kind.kind == "list" then return key_of(kind.of) .. "[]" end
   if kind.kind == "record" then
@@ -61,7 +61,7 @@ local function read(all)
     table.move(steps, 1, #steps, #api.examples + 1, api.examples)
   end
 
-  -- `entry` is the name under which it is counted
+  -- `entry` is the name under which coverage is counted
   local function step(name, entry, class, text)
     local made = {name = name, entry = entry, class = class, words = words_of(text), keys = {}}
     made.params = parameters(made, text)
@@ -118,8 +118,8 @@ local function read(all)
   return api
 end
 
---- The API of this program: lists of steps {name, entry, class?, params, words, keys} by what is done with them, and the
---- names of everything that can be reached, keys as "clench.load{root}".
+--- The API of this program: lists of steps {name, entry, class?, params, words, keys} by kind of use, and the names of everything that can be
+--- reached, keys as "clench.load{root}".
 return function()
   local api = read(clench.entries())
   api.names = {}

@@ -1,12 +1,12 @@
--- Statements of the API's fuzzer made from the examples of the API's pages: each runs in an environment of its own, as it
--- stands on the page or with one part made hostile. Examples name every argument, so they reach what random arguments miss.
+-- Statements of the API's fuzzer made from the examples of the API's pages: each runs in a separate environment, unchanged or with one part made
+-- hostile. Examples name every argument, so they reach code that random arguments miss.
 local here = debug.getinfo(1, "S").source:match "^@(.*/)" or ""
 local stage = dofile(here .. "stage.lua")
 local spoil = dofile(here .. "spoil.lua")
 local doc = require "clench.host.doc"
 local examples = {}
 
---- The steps that a doc's examples make: {entry, keys, lines}, the last line being the one whose value counts.
+--- The steps of a doc's examples: {entry, keys, lines}; the last line gives the value.
 ---@param step table   of entries.lua
 ---@param text string  its doc
 ---@return table[]
@@ -37,7 +37,7 @@ function examples.source(step, hostile)
 end
 
 --- `example` of the statements: runs its lines in a fresh environment and returns the last one's value.
----@param globals table  what the lines see besides the stage
+---@param globals table  globals in addition to those of the stage
 function examples.runner(globals)
   return function(...)
     local env, value = stage(globals), nil

@@ -1,17 +1,17 @@
--- Files changed at random, read as `clench check` reads them. The same seed makes the same files.
---   clench -q run tests/fuzz/files.lua SEED COUNT LIST      LIST: a file that names the good files to begin with, one per line
---   clench -q run tests/fuzz/files.lua read FILE...         files as they are
--- A changed file stands beside its original, as fuzz-SEED.ENDING, so that what it names is found, and stays there when it
--- breaks the program. What is wrong without a crash (a message that is none, a number that is not finite, seconds) is kept
--- as found-SEED-NUMBER.ENDING in the current folder and printed as `FINDING <number> <signature>`; the exit code is then 3.
+-- Files changed at random, read like by `clench check`. The same seed makes the same files.
+--   clench -q run tests/fuzz/files.lua SEED COUNT LIST      LIST: a file with the paths of the initial files, one per line
+--   clench -q run tests/fuzz/files.lua read FILE...         files unchanged
+-- A changed file is written next to its original, as fuzz-SEED.ENDING, so that the files that it names are found, and stays there if it crashes the
+-- program. Faults without a crash (an unreadable message, a number that is not finite, a call that takes seconds) are kept as
+-- found-SEED-NUMBER.ENDING in the current folder and printed as `FINDING <number> <signature>`; the exit code is then 3.
 local here = arg[0]:match "^(.*/)" or ""
 local judge = dofile(here .. "judge.lua")
 local mutate = dofile(here .. "mutate.lua")
 local report = require "clench.report"
 
--- seconds of one file that are too many under sanitizers
+-- a file that takes longer, even under sanitizers, is a finding [s]
 local max_seconds = 20
--- seconds of one file that are many enough to leave it to other batches, which begin with others
+-- a batch stops changing a file that takes this long; other batches begin with other files [s]
 local long_seconds = 0.3
 
 local function read_all(path)
@@ -24,7 +24,7 @@ local function write_all(path, text)
   file:write(text)
 end
 
--- where the names in a file count from
+-- folders to which the names in a file are relative
 local function options_of(path)
   local root = path:match "^shared/data/[^/]+" or not path:find "^tests/" and "." or path:match "^(.*)/"
   return {root = root, folder = path:match "^(.*)/", package = path:match "^(.*)/"}
@@ -80,7 +80,7 @@ for path in io.lines(arg[3]) do
 end
 table.sort(endings)
 
--- batches take the formats in turn, and good files of theirs oftener than bad ones
+-- batches alternate between formats, and choose valid initial files more often than invalid ones
 local number, stop = 0, os.clock() + 10
 local list = by_ending[endings[seed % #endings + 1]]
 local good, bad = {}, {}

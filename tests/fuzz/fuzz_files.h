@@ -1,5 +1,4 @@
-// What the programs that fuzz readers share: a folder of files to name, and what they ask of an
-// Error.
+// Shared by the programs that fuzz readers: a folder for files, and the checks of an Error.
 #pragma once
 #include <unistd.h>
 
@@ -25,14 +24,15 @@ inline std::string_view text_of(const uint8_t* data, size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// of this process alone; readers look for files in the folder above, too, so that it is ours
+/// a folder of this process only; readers also search the parent folder, which is therefore ours,
+/// too
 inline fs::path new_folder() {
   fs::path path = fs::temp_directory_path() / fmt::format("clench_fuzz_{}", getpid()) / "in";
   fs::create_directories(path);
   return path;
 }
 
-/// Reads `path`, or meets an Error whose sentence names it, or the file `beside` it.
+/// Reads `path`, or gets an Error whose message names it, or the file `beside` it.
 template <class Read>
 void check(const fs::path& path, Read read, std::string_view beside = {}) {
   try {

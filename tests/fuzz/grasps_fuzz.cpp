@@ -1,4 +1,4 @@
-// A list of grasps of any bytes, in each format of grasp lists, is a list or an Error.
+// A list of grasps of arbitrary bytes, in each format of grasp lists, is a list or an Error.
 #include "clench/io/grasp_files.h"
 #include "fuzz_files.h"
 

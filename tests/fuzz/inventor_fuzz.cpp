@@ -1,5 +1,5 @@
-// An Inventor or VRML file of any bytes, as a body and as a planner's primitives, with files beside
-// it that it may include, itself among them: a spec or an Error.
+// An Inventor or VRML file of arbitrary bytes, as a body and as a planner's primitives, with files
+// next to it that it may include, including itself: a spec or an Error.
 #include "clench/io/graspit/inventor_primitives.h"
 #include "fuzz_files.h"
 

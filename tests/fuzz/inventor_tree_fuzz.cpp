@@ -1,6 +1,5 @@
-// Trees of Inventor or VRML nodes that are well formed, and odd in what they say: the bytes choose
-// nodes, fields, numbers, names and PROTOs. As a body and as a planner's primitives: a spec or an
-// Error.
+// Trees of Inventor or VRML nodes with correct syntax and odd contents: the bytes choose nodes,
+// fields, numbers, names and PROTOs. As a body and as a planner's primitives: a spec or an Error.
 #include "clench/io/graspit/inventor_primitives.h"
 #include "clench/io/inventor/inventor_types.h"
 #include "fuzz_files.h"
@@ -101,7 +100,7 @@ class TreeWriter {
   }
 
  private:
-  /// below `count`; 0 when no bytes are left
+  /// below `count`; 0 if no bytes are left
   size_t pick(size_t count) {
     if (left_ == 0) return 0;
     --left_;
@@ -157,7 +156,7 @@ void TreeWriter::proto() {
   out_ += "PROTO P [ field SFFloat x ";
   number(false);
   out_ += "field MFNode c [ ";
-  in_proto_ = pick(8) > 0;  // now and then a PROTO in a PROTO
+  in_proto_ = pick(8) > 0;  // sometimes a PROTO in a PROTO
   if (pick(2) == 0) statement(3);
   out_ += "] eventIn SFTime t ] {\n";
   for (size_t i = pick(3) + 1; i > 0; --i) statement(2);

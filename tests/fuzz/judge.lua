@@ -1,7 +1,7 @@
 -- Finds faults of a message or of a returned value.
 local judge = {}
 
--- words of a library, of the compiler or of Lua itself, in a place where a sentence for the user belongs
+-- words of a library, of the compiler or of Lua itself, in a place for a message to the user
 local forbidden = {"std::", "bad_alloc", "vector::", "basic_string", "unprotected", "stack traceback", "terminate",
                    "not enough memory", "Assertion"}
 
@@ -17,19 +17,19 @@ function judge.text(text)
   if #text > longest then return ("a text of %d characters: %s"):format(#text, text) end
 end
 
---- Why an error's message is no sentence with a subject; nil when it is one.
+--- Reason for which an error's message is not a sentence with a subject; nil if it is one.
 function judge.message(message)
   if type(message) ~= "string" then
     -- a script's own error object
     return type(message) ~= "table" and "an error that is a " .. type(message) or nil
   end
-  -- what the statement itself did wrong, such as to call a table, Lua tells; but not of the standard library's own code
+  -- Lua reports errors of the statement itself, such as calling a table; but not those of the standard library's own code
   if message:find "attempt to" or message:find "bad argument" then return message:find "^fuzz:" == nil and message or nil end
   return judge.text(message)
     or not message:find ": " and message ~= "mine" and message ~= "never asked" and message or nil
 end
 
--- infinite where there is no limit, or nothing to measure, as the docs say
+-- infinite if there is no limit, or nothing to measure, as documented
 local endless = {
   ["patch.radii"] = true, ["patch.relative_radii"] = true, ["robot.dof_limits"] = true, ["eigengrasps.limits"] = true,
   ["eigengrasps.range"] = true, ["robot.effort_ranges"] = true,

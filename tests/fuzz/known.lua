@@ -1,9 +1,9 @@
--- Facts that the types in the docs leave open: lengths of lists, numbers that a name means, files that an entry reads.
+-- Facts that the types in the docs leave open: lengths of lists, numbers that a name requires, files that an entry reads.
 local random = math.random
 local function one_of(list) return list[random(#list)] end
 local known = {}
 
--- numbers in a list of this name
+-- length of a list with this name
 known.lengths = {
   load = 6, direction = 6, wrench = 6, wrenches = 6, ellipsoid = 6, edges = 6, color = 3, rpy = 3, quat = 4, matrix = 4,
   size = 2, outline = 2, profile = 2, path = 3, from = 3, to = 3, up = 3, given = 3, vertices = 3, triangles = 3, joint_positions = 3,
@@ -67,7 +67,7 @@ known.types = {
 }
 
 local shape = "@param shape table\n"
---- functions of the standard library that packed files offer under another name than their own
+--- functions of the standard library that packed files offer under another name
 known.packed = {
   ["clench.shapes.area"] = shape, ["clench.shapes.bounds"] = shape, ["clench.shapes.closed"] = shape,
   ["clench.shapes.mass"] = shape, ["clench.shapes.volume"] = shape,
@@ -105,7 +105,7 @@ local function text_of(list) return function() return ("%q"):format(one_of(list)
 local function source_of(list) return function() return one_of(list) end end
 local coordinates = source_of {"{'fx', 'fy', 'fz'}", "{'fx', 'fy', 'tz'}", "{'tx', 'ty', 'tz'}"}
 
---- by parameter or field, or by entry and its name; each is called with the maker
+--- by parameter or field, or by entry and name; each is called with the maker
 known.sources = {
   object = objects, shape = source_of(shapes),
   contacts = contacts, inertia = diagonal, parts = function() return ("{%s, %s}"):format(one_of(shapes), one_of(shapes)) end,
@@ -141,7 +141,7 @@ known.sources = {
   link = function(self) local robot = self:object "robot" return robot and robot .. ".links[2]" or "nil" end,
 }
 
---- complete lists of arguments of entries whose parts must fit each other
+--- complete lists of arguments for entries whose arguments must match each other
 known.arguments = {
   ["clench.eigengrasps"] = source_of {"{postures = {{0, 0}, {1, 2}, {2, 5}}, count = 1}", "{vectors = {{1, 0}, {0, 3}}}",
                                       "{vectors = {{1, 0}, {0, 3}}, origin = {1, 1}, eigenvalues = {1, 2}, limits = {{-1, 1}, {-1, 1}}, norm = {1, 2}}",
@@ -179,25 +179,25 @@ known.providers = {
   random = "clench.random(7)", vec3 = "clench.vec3(1, 2, 3)", pose = "clench.pose {rpy = {1, 2, 3}}",
 }
 
--- holding it as the hand does now
+-- holding it in the hand's current posture
 local function grasp(self)
   local robot = self:object "robot"
   return robot and ("clench.grasp(%s, %s.world.objects[1], {edges = %s})"):format(robot, robot, one_of {"8", "4", "'exact'"})
 end
---- objects that may be used only until something moves
+--- objects that a motion invalidates
 known.stale = {grasp = grasp, measures = grasp, forces = grasp}
 
---- they take long; none is left out, but each is rarer by so much
+--- slow entries: called less frequently by this factor
 known.heavy = {
   ["clench.render"] = 60, ["projection:render"] = 60, ["measures:quality_all"] = 30, ["wrench_space:volume"] = 30,
   ["wrench_space:volume_bounds"] = 30, ["wrench_space:project"] = 10, ["hand:find_virtual_contacts"] = 5, ["body:move_to"] = 10,
   ["robot:move_to"] = 10, ["robot:approach_object"] = 40, ["robot:open"] = 5, ["clench.study.robustness"] = 8,
   ["clench.study.compare"] = 8, ["clench.catalog"] = 5, ["clench.entries"] = 5, ["clench.report.of"] = 5,
 }
---- and so does all that needs one of these
+--- the same for all entries that need an object of one of these classes
 known.heavy_classes = {picture = 80, projection = 10, virtual_contact = 3}
 
---- One over the frequency of a step among its kind; nil for 1.
+--- Reciprocal of a step's frequency among its kind; nil for 1.
 function known.rarity(step)
   local searches = step.lines and (step.entry:find "^clench%.plan%." or step.entry:find "^clench%.study%." or step.class == "picture")
   return searches and 12 or known.heavy[step.entry] or known.heavy_classes[step.class]

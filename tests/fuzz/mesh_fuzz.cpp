@@ -1,4 +1,4 @@
-// A mesh file of any bytes is a mesh that a Shape takes, or an Error.
+// A mesh file of arbitrary bytes is a mesh that a Shape accepts, or an Error.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const clench::Geometry geometry = clench::read_mesh({path, bytes, options});
     clench::check_mesh(geometry.mesh, "mesh");
   } catch (const clench::Error& error) {
-    // a sentence names its file
+    // a message names its file
     if (!std::string(error.what()).starts_with("fuzz." FORMAT)) std::abort();
   }
   return 0;

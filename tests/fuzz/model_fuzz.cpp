@@ -1,5 +1,5 @@
-// A robot, body or world of any bytes, and small files around it that it may name, is a spec or an
-// Error. Which of the three a file is meant to be, its ending says, or its outermost element.
+// A robot, body or world of arbitrary bytes, with small files around it that it may name, is a spec
+// or an Error. The ending of a file or its outermost element decides which of the three it is.
 #include "clench/io/text/xml.h"
 #include "fuzz_files.h"
 

@@ -1,4 +1,4 @@
--- Texts changed at random: bytes, words, numbers, lines and brackets exchanged, dropped, doubled, or taken from another text.
+-- Randomly changed texts: bytes, words, numbers, lines and brackets are exchanged, dropped, doubled, or taken from another text.
 local random = math.random
 local function one_of(list) return list[random(#list)] end
 

@@ -1,5 +1,5 @@
--- Leaves out of a list of calls what is not needed to break the program in the same way.
---   FUZZ_CLENCH=PROGRAM lua5.4 tests/fuzz/reduce.lua REPEAT CALLS SIGNATURE OUT [LAST]
+-- Removes calls from a list that are not needed to cause the same failure.
+-- FUZZ_CLENCH=PROGRAM lua5.4 tests/fuzz/reduce.lua REPEAT CALLS SIGNATURE OUT [LAST]
 local repeat_script, from, signature, out, last = table.unpack(arg)
 local crash = dofile((arg[0]:match "^(.*/)" or "") .. "crash.lua")
 
@@ -14,7 +14,7 @@ local function write(list)
   file:write(table.concat(list, "\n"), "\n")
 end
 
--- runs that are left; each takes the time of a start at least
+-- remaining runs; each takes at least the time of a start
 local runs = 60
 local function breaks(list)
   if runs == 0 then return false end
@@ -28,7 +28,7 @@ local function breaks(list)
   return code ~= 0 and crash(said, code) == signature
 end
 
--- the last call and those whose values it uses
+-- the last call and the calls whose values it uses
 local function needed(list)
   local expected, kept = {}, {}
   for i = #list, 1, -1 do
@@ -48,7 +48,7 @@ if #slice < #lines and breaks(slice) then best = slice end
 local size = (#best + 1) // 2
 while size >= 1 and runs > 0 do
   local at = 1
-  while at < #best do  -- the last one stays
+  while at < #best do  -- the last call is kept
     local fewer = {}
     for i, line in ipairs(best) do
       if i < at or i >= at + size or i == #best then fewer[#fewer + 1] = line end

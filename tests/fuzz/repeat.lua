@@ -1,4 +1,4 @@
--- Repeats the statements of a calls.lua, each whatever became of those before it, with the errors that they raise.
+-- Repeats the statements of a calls.lua, continuing after errors, and prints the errors.
 --   clench -q run tests/fuzz/repeat.lua calls.lua
 local call = dofile((arg[0]:match "^(.*/)" or "") .. "call.lua")
 clench.log.level "quiet"

@@ -1,5 +1,5 @@
-// The small files around hands and planners, of any bytes: a value or an Error. Where two kinds
-// have one ending, both readers are tried.
+// The small files for hands and planners, of arbitrary bytes: a value or an Error. If two kinds
+// have the same ending, both readers are tried.
 #include "clench/io/grasp_lines.h"
 #include "clench/io/graspit/eigengrasps.h"
 #include "clench/io/graspit/glove_files.h"

@@ -1,4 +1,4 @@
--- One part of a list of arguments, given as Lua source, exchanged for something hostile.
+-- One part of a list of arguments, given as Lua source, replaced by a hostile one.
 local random = math.random
 
 -- positions of numbers, strings, tables and names of values; not of names of keys
@@ -9,7 +9,7 @@ local function parts(text)
     local word = rest:match '^"[^"\\]*"' or rest:match "^'[^'\\]*'" or rest:match "^[%a_][%w_.]*" or rest:match "^%-?%.?%d[%w.]*[+-]?%w*"
     local long = rest:match "^:rep%(%d+%)"
     if long then
-      -- a text of 2 GB is the script's own doing
+      -- excludes texts of 2 GB, which the script itself makes
       at = at + #long
     elseif word then
       -- v[3].links[1]
@@ -28,10 +28,10 @@ end
 
 local function reads_as_arguments(text) return load("f(" .. text .. ")") end
 
---- The text with one part replaced, such that it still compiles; the same text when it has no parts.
----@param text string  arguments, as between the brackets of a call, or what `compiles` accepts
+--- The text with one part replaced, such that it still compiles; the same text if it has no parts.
+---@param text string  arguments, as between the brackets of a call, or a text that `compiles` accepts
 ---@param hostile fun(part: string): string  replacement of a part
----@param compiles? fun(text: string): any  true for text that may be returned; without it: of lists of arguments
+---@param compiles? fun(text: string): any  true for text that may be returned; default: lists of arguments
 ---@return string
 return function(text, hostile, compiles)
   compiles = compiles or reads_as_arguments

@@ -1,6 +1,6 @@
--- Globals of the examples of the API's pages: the globals of a script, and the parts of a stage that the examples use by name.
+-- Globals of the examples of the API's pages: those of a script, and the objects of a stage that the examples use by name.
 
--- worlds/dlr_flask.wld with the hand closed on the flask; made once, cloned for each example that asks
+-- worlds/dlr_flask.wld with the hand closed on the flask; made once, cloned for each example that uses it
 local closed
 local parts = {
   world = function()

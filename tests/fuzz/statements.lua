@@ -1,4 +1,4 @@
--- Random statements over the whole API, each with the entry that it reaches.
+-- Random statements over the complete API, each with the entry that it reaches.
 local here = debug.getinfo(1, "S").source:match "^@(.*/)" or ""
 local known = dofile(here .. "known.lua")
 local spoil = dofile(here .. "spoil.lua")
@@ -11,11 +11,11 @@ Statements.__index = Statements
 
 ---@param api table    of entries.lua
 ---@param maker table  of values.lua
----@param even? boolean  whether those that take long are as frequent as others
+---@param even? boolean  whether slow entries are as frequent as others
 ---@return table statements
 local function new(api, maker, even) return setmetatable({api = api, maker = maker, even = even, decks = {}}, Statements) end
 
--- steps are taken like cards from a shuffled deck, so that all of them have their turn
+-- draws steps like cards from a shuffled deck, so that all of them are used
 local function pick(self, list)
   local deck = self.decks[list] or {}
   self.decks[list] = deck
@@ -28,7 +28,7 @@ local function pick(self, list)
   return table.remove(deck)
 end
 
--- source of an object; what a class has none of is made, and what a move makes stale often anew
+-- source of an object; creates one if the class has none, and often a new one if a motion may have invalidated it
 local function object_of(self, class)
   local source = self.maker:object(class)
   local anew = known.stale[class] and random(2) == 1 and known.stale[class](self.maker)
@@ -52,12 +52,12 @@ local function sensible_arguments(self, step)
     if param.optional and random(4) == 1 and not step.name:find "render" then break end
     list[#list + 1] = maker:make(param.type, param.name)
   end
-  -- one too many
+  -- one argument too many
   if random() < maker.hostility / 4 then list[#list + 1] = maker:make(one_of(self.api.types)) end
   return table.concat(list, ", ")
 end
 
--- `one`: of all that is sensible one part is made hostile
+-- `one`: makes one part of sensible arguments hostile
 local function arguments(self, step, one)
   local text = sensible_arguments(self, step)
   return one and spoil(text, function(part) return self.maker:hostile_value(nil, part) end) or text
@@ -146,7 +146,7 @@ function makers.examples(self, n, one)
   return ("v[%d] = %s"):format(n, examples.source(step, hostile)), step, n
 end
 
--- methods of tables that the standard library returned, which no table of entries lists: recordings, logs, searches
+-- methods of tables returned by the standard library, which no table of entries lists: recordings, logs, searches
 function makers.members(self, n)
   local members = self.api.members
   if #members == 0 then return end
@@ -175,7 +175,7 @@ function Statements:make(n)
   return ("v[%d] = clench.world()"):format(n), {entry = "clench.world", keys = {}}, n
 end
 
---- The names in a statement's coverage: its entry, and the keys of the entry that stand in its text.
+--- The names in a statement's coverage: its entry, and the keys of the entry that appear in its text.
 function Statements.reached(text, step)
   local names, said = {step.entry}, {}
   for key in text:gmatch "([%a_][%w_]*)%s*=[^=]" do said[key] = true end

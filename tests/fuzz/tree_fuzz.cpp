@@ -1,5 +1,5 @@
-// A URDF or MJCF robot of any bytes is a robot that check_robot takes, or an Error that names the
-// file.
+// A URDF or MJCF robot of arbitrary bytes is a robot that check_robot accepts, or an Error that
+// names the file.
 #include "clench/spec/check_robot.h"
 #include "fuzz_files.h"
 

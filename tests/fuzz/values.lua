@@ -1,5 +1,4 @@
--- Values of a type as Lua source: mostly such as a script would give, some of them hostile. `v` is the script's table of
--- the objects that were made so far.
+-- Values of a type as Lua source: mostly as in typical scripts, some of them hostile. `v` is the script's table of all objects made so far.
 local known = dofile((debug.getinfo(1, "S").source:match "^@(.*/)" or "") .. "known.lua")
 local examples = dofile((debug.getinfo(1, "S").source:match "^@(.*/)" or "") .. "examples.lua")
 local values = {}
@@ -69,16 +68,16 @@ local Maker = {}
 Maker.__index = Maker
 
 --- A maker of values.
----@param pool table<string, string[]>  source of the objects there are, by class
----@param api table  words, files, fields of a type, as api.lua lists them
+---@param pool table<string, string[]>  source of existing objects, by class
+---@param api table  words, files, fields of a type, as listed by api.lua
 function values.maker(pool, api)
   return setmetatable({pool = pool, api = api, hostility = 0, hostile = 0, words = {}, entry = ""}, Maker)
 end
 
---- From now on each part of a value is hostile with this probability; `hostile` counts those that were.
+--- From now on each part of a value is hostile with this probability; `hostile` counts the hostile parts.
 function Maker:begin(hostility) self.hostility, self.hostile = hostility, 0 end
 
---- Something hostile in the place of `part`, of a number mostly another.
+--- A hostile replacement of `part`; for a number mostly another number.
 function Maker:hostile_value(name, part)
   self.hostile = self.hostile + 1
   if part and tonumber(part) and random(4) > 1 then return one_of(hostile_numbers) end
@@ -157,7 +156,7 @@ makers["true"] = function() return "true" end
 
 local function record(self, kind)
   local parts = {}
-  -- all that may be given, some of it, or one thing alone
+  -- all optional fields, some of them, or only one
   local way, only = random(6), random(#kind.fields + 1)
   for i, field in ipairs(kind.fields) do
     if not field.optional or way == 1 or way <= 3 and random(3) == 1 or way > 3 and i == only or field.name == "size" then
@@ -177,7 +176,7 @@ local function list(self, kind, name)
   return "{" .. table.concat(parts, ", ") .. "}"
 end
 
--- a field of some object whose type is written alike
+-- a field of some object with the same type
 local function field_of_type(self, kind)
   local fields = self.api.fields_by_type[self.api.key(kind)]
   local field = fields and one_of(fields)
@@ -185,7 +184,7 @@ local function field_of_type(self, kind)
   return object and object .. "." .. field.name
 end
 
--- lists that are as long as something has parts
+-- lists whose length is the number of an object's parts
 local lists_of = {values = "dofs", dofs = "dofs", amplitudes = "amplitudes"}
 
 --- Source of a value of the type, for the parameter or field `name`.

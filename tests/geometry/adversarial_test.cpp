@@ -17,8 +17,8 @@ namespace {
 
 constexpr double beyond_all = std::numeric_limits<double>::infinity();
 
-// every query on a pair against all pairs of triangles, moved by the same arithmetic: equal to the
-// bit
+// compares every query on a pair bit-exactly with a search of all pairs of triangles, moved by the
+// same arithmetic
 void check_all_queries(const Shape& a, const Shape& b, const Pose& X, double threshold) {
   const Eigen::Matrix3d R = X.rotation.normalized().toRotationMatrix();
   double least = beyond_all;
@@ -46,7 +46,7 @@ void check_all_queries(const Shape& a, const Shape& b, const Pose& X, double thr
   CHECK(closest_point(a, p).distance == least);
 }
 
-// needles and shards: each triangle a million times as long as wide, or without area at all
+// needles and shards: each triangle a million times as long as wide, or without any area
 Mesh slivers(Random& random, int count) {
   Mesh mesh = soup(random, count);
   for (int i = 0; i < count; ++i) {
@@ -79,7 +79,9 @@ Mesh half_of(Mesh mesh) {
 
 }  // namespace
 
-TEST_CASE("slivers, doubled, open and flat meshes: every query equals all pairs to the bit") {
+TEST_CASE(
+    "slivers and doubled, open and flat meshes: every query equals a search of all pairs, "
+    "bit-exactly") {
   Random random(1);
   const std::vector<Mesh> meshes = {slivers(random, 40), twice(potato(random, 0.5, 4)),
                                     half_of(potato(random, 0.6, 6)), sheet(4, 1), soup(random, 40)};
@@ -90,7 +92,7 @@ TEST_CASE("slivers, doubled, open and flat meshes: every query equals all pairs 
     }
 }
 
-TEST_CASE("at a micrometer, a kilometer away, and of very different sizes the same holds") {
+TEST_CASE("meshes of a micrometer, a kilometer away, and of very different sizes: the same") {
   Random random(2);
   const Mesh mesh = potato(random, 1, 5);
   struct Case {
@@ -115,26 +117,26 @@ TEST_CASE("at a micrometer, a kilometer away, and of very different sizes the sa
   }
 }
 
-TEST_CASE("bodies far apart for their size are measured to the last bit as well") {
+TEST_CASE("distances of bodies far apart for their size are bit-exact as well") {
   Random random(3);
   const auto a = Shape::make(potato(random, 0.1, 5)), b = Shape::make(potato(random, 0.05, 5));
   for (const double far : {10.0, 1e3, 1e6, 1e12, 1e29})
     check_all_queries(*a, *b, {random_turn(random), far * random_direction(random)}, 0.1);
 }
 
-TEST_CASE("sheets of thousands of coplanar triangles lie on each other, and a hair apart") {
+TEST_CASE("sheets of thousands of coplanar triangles collide, or have a tiny distance") {
   const auto a = Shape::make(sheet(40, 1)), b = Shape::make(sheet(12, 0.2));
   CHECK(colliding(*a, *b, Pose::translation({0.3, 0.3, 0})));
   CHECK(distance(*a, *b, Pose::translation({0.3, 0.3, 0})).distance == 0);
   const Pose above = Pose::translation({0.3, 0.3, 1e-7});
   CHECK_FALSE(colliding(*a, *b, above));
   CHECK(distance(*a, *b, above).distance == 1e-7);
-  // beside each other in one plane
+  // next to each other in one plane
   CHECK(std::abs(distance(*a, *b, Pose::translation({1.25, 0.1, 0})).distance - 0.25) < 1e-15);
   CHECK_FALSE(colliding(*a, *b, Pose::translation({1.0000001, 0.1, 0})));
 }
 
-TEST_CASE("a cache that is kept over long walks changes no verdict and no distance") {
+TEST_CASE("a cache kept over long walks changes no verdict and no distance") {
   Random random(4);
   const auto a = Shape::make(potato(random)), b = Shape::make(potato(random, 0.5));
   for (const double pace : {1e-3, 0.02, 0.3}) {
@@ -149,7 +151,7 @@ TEST_CASE("a cache that is kept over long walks changes no verdict and no distan
       const double cold = distance(*a, *b, X, limit).distance;
       if (i % 2 == 0) CHECK(colliding(*a, *b, X, &cache) == (cold == 0));
       CHECK(distance(*a, *b, X, limit, &cache).distance == cold);
-      // the cache knows whose it is
+      // a cache used for other shapes is ignored
       if (i % 50 == 49)
         CHECK(colliding(*b, *a, X.inverse(), &cache) == colliding(*b, *a, X.inverse()));
     }
@@ -158,7 +160,7 @@ TEST_CASE("a cache that is kept over long walks changes no verdict and no distan
 
 namespace {
 
-// eight boxes and eight triangles at random, as a tree holds them
+// eight random boxes and eight random triangles, as stored in a tree
 void fill(Random& random, BoxBundle& boxes, TriangleBundle& triangles) {
   for (int i = 0; i < 8; ++i) {
     const Eigen::Matrix3d axes = random_turn(random).toRotationMatrix();
@@ -203,7 +205,7 @@ std::vector<float> results_at(const BoxBundle& boxes, const TriangleBundle& one,
 
 }  // namespace
 
-TEST_CASE("vectors of one, two and four numbers give the same bits") {
+TEST_CASE("vectors of one, two and four numbers give bit-identical results") {
   Random random(5);
   for (int i = 0; i < 200; ++i) {
     BoxBundle boxes;
@@ -215,14 +217,14 @@ TEST_CASE("vectors of one, two and four numbers give the same bits") {
   }
 }
 
-TEST_CASE("the least of eight lanes") {
+TEST_CASE("min_of returns the minimum of eight lanes") {
   const float some[8] = {3, 5, 7, 2, 3, 9, 2.5f, 3};
   CHECK(min_of(Lanes<float, 4>::load(some)) == 2);
 }
 
 TEST_CASE("bounds of boxes and triangles in single precision bracket the exact distances") {
   Random random(6);
-  // as precision.h says, for coordinates below 8
+  // rounding bound of precision.h, for coordinates below 8
   const double slack = 64 * 0x1p-24 * 8;
   for (int i = 0; i < 200; ++i) {
     BoxBundle boxes;

@@ -17,7 +17,7 @@ void check_against_all_triangles(const Shape& shape, const Vector3d& p, int seed
   for (int t = 0; shape.has_triangle(t); ++t)
     least = std::min(least, point_triangle(p, shape.mesh().corners(t)).distance);
   const ClosestPoint c = closest_point(shape, p);
-  // the same function of the same numbers
+  // exactly equal: the same function of the same numbers
   CHECK(c.distance == least);
   CHECK(closest_point(shape, p, seed).distance == least);
   REQUIRE(shape.has_triangle(c.triangle));
@@ -28,7 +28,7 @@ void check_against_all_triangles(const Shape& shape, const Vector3d& p, int seed
 
 }  // namespace
 
-TEST_CASE("the closest point is that of all triangles, with any seed") {
+TEST_CASE("the closest point equals that of a search of all triangles, with any seed") {
   Random random(1);
   for (const auto& shape : {Shape::make(soup(random, 100)), Shape::make(potato(random))})
     for (int i = 0; i < 200; ++i)
@@ -36,7 +36,7 @@ TEST_CASE("the closest point is that of all triangles, with any seed") {
                                   static_cast<int>(random.uniform(-20, 150)));
 }
 
-TEST_CASE("a point of the surface is its own closest point") {
+TEST_CASE("a point on the surface is its own closest point") {
   const auto shape = Shape::make(ball(0.05, 20, 40));
   for (const Vector3d& p : shape->mesh().vertices) {
     const ClosestPoint c = closest_point(*shape, p);
@@ -45,7 +45,7 @@ TEST_CASE("a point of the surface is its own closest point") {
   }
 }
 
-TEST_CASE("real meshes: the closest point is that of all triangles") {
+TEST_CASE("real meshes: the closest point equals that of a search of all triangles") {
   REQUIRE_SHARED();
   Random random(2);
   const auto apple = Shape::make(read_obj(shared() / "data" / "ycb" / "013_apple.obj"));
@@ -53,7 +53,7 @@ TEST_CASE("real meshes: the closest point is that of all triangles") {
     check_against_all_triangles(*apple, apple->center() + random_point(random, 0.1), i);
 }
 
-TEST_CASE("whatever triangle a search begins at, it finds the same point and triangle") {
+TEST_CASE("a search finds the same point and triangle from any starting triangle") {
   Random random(3);
   const auto shape = Shape::make(potato(random));
   Vector3d p = Vector3d::Zero();
@@ -68,15 +68,15 @@ TEST_CASE("whatever triangle a search begins at, it finds the same point and tri
   }
 }
 
-TEST_CASE("a point from which thousands of triangles are equally near has the first of them") {
-  // corners of a sphere, so that its middle sees each of them as near as rounding allows
+TEST_CASE("for thousands of equally near triangles, the first one is returned") {
+  // corners of a sphere: their distances from its center are equal up to rounding
   const auto shape = Shape::make(ball(1, 40, 80));
   check_against_all_triangles(*shape, Vector3d::Zero(), 3000);
   CHECK(closest_point(*shape, Vector3d::Zero()).triangle ==
         closest_point(*shape, Vector3d::Zero(), 3000).triangle);
 }
 
-TEST_CASE("a point that is not finite is refused") {
+TEST_CASE("a point that is not finite is rejected") {
   const auto shape = Shape::make(box(1, 1, 1));
   CHECK_THROWS_WITH_AS(closest_point(*shape, {0, std::nan(""), 0}),
                        "closest_point: point must be finite [m], got (0, nan, 0)", Error);

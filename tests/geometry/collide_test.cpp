@@ -21,7 +21,7 @@ bool surfaces_meet(const Shape& a, const Shape& b, const Pose& X_AB) {
   return false;
 }
 
-// any vertex of one in the solid of the other
+// whether any vertex of one mesh is inside the other solid
 bool one_holds_the_other(const Shape& a, const Shape& b, const Pose& X_AB) {
   if (a.closed())
     for (const Vector3d& p : b.mesh().vertices)
@@ -49,19 +49,19 @@ void check_against_all_pairs(const Shape& a, const Shape& b, Random& random, dou
 
 }  // namespace
 
-TEST_CASE("collision of random soups, degenerate triangles among them, equals all pairs") {
+TEST_CASE("collision of random soups with degenerate triangles equals a search of all pairs") {
   Random random(1);
   const auto a = Shape::make(soup(random, 45)), b = Shape::make(soup(random, 30));
   check_against_all_pairs(*a, *b, random, 1.2, 100);
 }
 
-TEST_CASE("collision of closed bodies equals all pairs or one inside the other") {
+TEST_CASE("collision of closed bodies equals a search of all pairs and of inner vertices") {
   Random random(2);
   const auto a = Shape::make(potato(random, 1, 6)), b = Shape::make(potato(random, 0.4, 4));
   check_against_all_pairs(*a, *b, random, 1.5, 100);
 }
 
-TEST_CASE("a body inside another collides, from either side, also with its faces inward") {
+TEST_CASE("a body inside another collides, in either order, also with inverted faces") {
   Random random(3);
   const auto big = Shape::make(ball(2)), small = Shape::make(box(0.5, 0.5, 0.5)),
              inward = Shape::make(inverted(ball(2)));
@@ -74,7 +74,7 @@ TEST_CASE("a body inside another collides, from either side, also with its faces
   CHECK(colliding(*big, *big, Pose()));
 }
 
-TEST_CASE("an open body holds nothing, but can be held") {
+TEST_CASE("an open body contains nothing, but can be contained") {
   Mesh cup = box(1, 1, 1);
   cup.triangles.resize(2);
   cup.triangles.push_back({0, 1, 5});
@@ -86,7 +86,7 @@ TEST_CASE("an open body holds nothing, but can be held") {
   CHECK(colliding(*big, *open, Pose()));
 }
 
-TEST_CASE("any part inside is a collision, the hollow of a shell is free") {
+TEST_CASE("any part inside is a collision, and the cavity of a shell is outside") {
   const Mesh bead = box(0.1, 0.1, 0.1);
   const auto far_and_near = Shape::make(joined(moved(bead, Pose::translation({9, 0, 0})), bead));
   const auto outside = Shape::make(joined(moved(bead, Pose::translation({9, 0, 0})),
@@ -103,7 +103,7 @@ TEST_CASE("any part inside is a collision, the hollow of a shell is free") {
   CHECK_FALSE(colliding(*shell, *small, Pose::translation({2.5, 0, 0})));
 }
 
-TEST_CASE("touching counts: faces, edges and corners of boxes that meet in exact numbers") {
+TEST_CASE("touching is a collision: faces, edges and corners of boxes at exact coordinates") {
   const auto a = Shape::make(box(1, 1, 1));
   for (const Vector3d& p : {Vector3d(1, 0, 0), Vector3d(1, 0.25, -0.5), Vector3d(1, 1, 0),
                             Vector3d(1, 1, 1), Vector3d(0, -1, 0.125)})
@@ -113,7 +113,7 @@ TEST_CASE("touching counts: faces, edges and corners of boxes that meet in exact
     CHECK_FALSE(colliding(*a, *a, Pose::translation(p)));
 }
 
-TEST_CASE("what the cache remembers changes no answer, even if it is of other shapes") {
+TEST_CASE("cached data change no answer, even if they belong to other shapes") {
   Random random(4);
   const auto a = Shape::make(potato(random, 1, 8)), b = Shape::make(potato(random, 0.6, 6));
   PairCache cache{.hit_a = 1 << 30, .hit_b = -7};
@@ -130,10 +130,11 @@ TEST_CASE("what the cache remembers changes no answer, even if it is of other sh
   CHECK(hits < 380);
 }
 
-TEST_CASE("real meshes: collision equals all pairs") {
+TEST_CASE("real meshes: collision equals a search of all pairs") {
   REQUIRE_SHARED();
   Random random(5);
-  // the 250 triangles nearest to the first corner, moved to the origin: all pairs are slow
+  // the 250 triangles nearest to the first corner, moved to the origin, because the search of all
+  // pairs is slow
   const auto patch = [](const char* name) {
     Mesh mesh = read_obj(shared() / "data" / "ycb" / name);
     const Vector3d start = mesh.vertices[mesh.triangles[0][0]];
@@ -149,7 +150,7 @@ TEST_CASE("real meshes: collision equals all pairs") {
   check_against_all_pairs(*banana, *hammer, random, 0.02, 20);
 }
 
-TEST_CASE("a pose that is none is refused") {
+TEST_CASE("an invalid pose is rejected") {
   const auto a = Shape::make(box(1, 1, 1));
   CHECK_THROWS_WITH_AS(colliding(*a, *a, Pose{Eigen::Quaterniond(0, 0, 0, 0), {0, 0, 0}}),
                        "geometry query: pose wants a unit quaternion, got (0, 0, 0, 0)", Error);

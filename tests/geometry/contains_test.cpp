@@ -8,7 +8,7 @@ using namespace clench;
 using namespace clench::test;
 using Eigen::Vector3d;
 
-TEST_CASE("inside is where the surface winds about, whichever way the faces look") {
+TEST_CASE("points around which the surface winds are inside, for either orientation of faces") {
   Random random(1);
   const Mesh body = potato(random, 1, 8);
   for (const auto& shape : {Shape::make(body), Shape::make(inverted(body))}) {
@@ -24,7 +24,7 @@ TEST_CASE("inside is where the surface winds about, whichever way the faces look
   }
 }
 
-TEST_CASE("parts may overlap, and hollows are outside") {
+TEST_CASE("parts may overlap, and cavities are outside") {
   const auto two = Shape::make(joined(ball(1), moved(ball(1), Pose::translation({1, 0, 0}))));
   CHECK(contains(*two, {0.5, 0, 0}));
   CHECK(contains(*two, {-0.5, 0, 0}));
@@ -35,7 +35,7 @@ TEST_CASE("parts may overlap, and hollows are outside") {
   CHECK(contains(*shell, {1.5, 0, 0}));
 }
 
-TEST_CASE("points a hair from the surface are on the right side of it") {
+TEST_CASE("points very close to the surface are on the correct side") {
   Random random(2);
   const Mesh mesh = potato(random);
   const auto shape = Shape::make(mesh);
@@ -50,8 +50,8 @@ TEST_CASE("points a hair from the surface are on the right side of it") {
   }
 }
 
-TEST_CASE("rays that would run through corners and edges do not mislead") {
-  // a fine grid of points and corners along every direction
+TEST_CASE("rays through corners and edges give correct results") {
+  // a fine grid of points, with corners in many directions
   const auto cube = Shape::make(box(2, 2, 2));
   for (int i = -6; i <= 6; ++i)
     for (int j = -6; j <= 6; ++j)
@@ -59,7 +59,7 @@ TEST_CASE("rays that would run through corners and edges do not mislead") {
         const Vector3d p = Vector3d(i, j, k) / 4.0 + Vector3d::Constant(1e-3);
         CHECK(contains(*cube, p) == (p.cwiseAbs().maxCoeff() < 1));
       }
-  // points from which a ray meets a corner exactly
+  // points from which a ray hits a corner exactly
   const auto ring = Shape::make(ball(1, 8, 16));
   for (const Vector3d& corner : ring->mesh().vertices)
     for (const Vector3d& d : {Vector3d(0.267, 0.535, 0.802), Vector3d(-0.713, 0.211, 0.671),
@@ -70,7 +70,7 @@ TEST_CASE("rays that would run through corners and edges do not mislead") {
       }
 }
 
-TEST_CASE("open meshes contain nothing, a point that is not finite is refused") {
+TEST_CASE("open meshes contain nothing, and a point that is not finite is rejected") {
   Mesh open = box(1, 1, 1);
   open.triangles.pop_back();
   CHECK_FALSE(contains(*Shape::make(open), {0, 0, 0}));

@@ -1,5 +1,4 @@
-// A bound of a distance lies below it, and by no more than was allowed, whatever pair is looked at
-// first.
+// A bound of a distance is a lower bound within the allowed factor, for any starting pair.
 #include <doctest/doctest.h>
 
 #include "clench/base/random.h"
@@ -9,8 +8,7 @@
 
 using namespace clench;
 
-TEST_CASE(
-    "a bound of a distance is at least the part asked for, and never more than the distance") {
+TEST_CASE("a bound is at least the requested fraction of the distance, and at most the distance") {
   Random random(12);
   int apart = 0, meeting = 0, far = 0;
   for (int n = 0; n < 600; ++n) {
@@ -23,8 +21,8 @@ TEST_CASE(
     const double part = n % 5 ? random.uniform(0.05, 1) : 1;
     const double limit =
         n % 2 ? std::numeric_limits<double>::infinity() : random.uniform(0, 3) * size;
-    // the walk allows 64 roundings of single precision of what it adds up, twice where it stops and
-    // twice in its answer
+    // the traversal allows 64 rounding errors of single precision, twice in its stopping rule and
+    // twice in its result
     const double extent = X_AB.position.norm() + 2 * (a->radius() + b->radius()) +
                           a->center().norm() + b->center().norm();
     const double rounding = 4 * 64 * 0x1p-24 * 2 * extent;
@@ -35,18 +33,18 @@ TEST_CASE(
     if (d > 0) CHECK(bound <= std::max(d, 0.0) * (1 + 1e-12));
     if (d == 0) {
       ++meeting;
-      continue;  // nothing is promised of what one holds inside
+      continue;  // for a body inside another, nothing is guaranteed
     }
     CHECK(bound >= std::min(limit, part * d) - rounding);
     d < limit ? ++apart : ++far;
-    // from any pair
+    // from any starting pair
     const auto count = [](const Shape& s) { return static_cast<int>(s.mesh().triangles.size()); };
     std::array<int, 2> any = {static_cast<int>(random.uniform() * count(*a)),
                               static_cast<int>(random.uniform() * count(*b))};
     const double seeded = distance_bound(*a, *b, X_AB, limit, part, any);
     CHECK(seeded <= d * (1 + 1e-12));
     CHECK(seeded >= std::min(limit, part * d) - rounding);
-    // and the same question has the same answer
+    // and the same query has the same answer
     std::array<int, 2> again = {-1, -1};
     CHECK(distance_bound(*a, *b, X_AB, limit, part, again) == bound);
     CHECK(again == none);
@@ -56,7 +54,7 @@ TEST_CASE(
   CHECK(meeting > 20);
 }
 
-TEST_CASE("surfaces that meet have a bound of 0") {
+TEST_CASE("intersecting surfaces have a bound of 0") {
   const auto box = Shape::make(test::box(1, 1, 1));
   std::array<int, 2> near = {-1, -1};
   const Pose X_AB{Eigen::Quaterniond::Identity(), {0.9, 0.1, 0.2}};

@@ -23,7 +23,7 @@ double min_of_all_pairs(const Shape& a, const Shape& b, const Pose& X_AB) {
   return least;
 }
 
-// witnesses lie on the named triangles, at the reported distance
+// nearest points lie on the named triangles, at the reported distance
 void check_witness(const Shape& a, const Shape& b, const Pose& X, const Distance& d) {
   const double tolerance = 1e-14 * (1 + X.position.norm());
   REQUIRE(a.has_triangle(d.triangle_a));
@@ -41,7 +41,7 @@ Pose closed_in(const Distance& d, Pose X, double gap) {
 
 }  // namespace
 
-TEST_CASE("distance of random soups is the least of all pairs") {
+TEST_CASE("distance of random soups is the minimum over all pairs") {
   Random random(1);
   const auto a = Shape::make(soup(random, 45)), b = Shape::make(soup(random, 30));
   for (int i = 0; i < 120; ++i) {
@@ -54,7 +54,8 @@ TEST_CASE("distance of random soups is the least of all pairs") {
   }
 }
 
-TEST_CASE("distance is the least of all pairs far away, near and touching, 0 when colliding") {
+TEST_CASE(
+    "distance is the minimum over all pairs far away, near and touching, and 0 for collisions") {
   Random random(2);
   const auto a = Shape::make(potato(random, 1, 6)), b = Shape::make(potato(random, 0.4, 4));
   for (int i = 0; i < 25; ++i) {
@@ -63,7 +64,7 @@ TEST_CASE("distance is the least of all pairs far away, near and touching, 0 whe
     for (const double gap : {1.0, 1e-2, 1e-4, 1e-6, 1e-9}) {
       const Pose Y = closed_in(start, X, gap);
       const Distance d = distance(*a, *b, Y);
-      // the segment between the nearest points is the shortest path: exactly the gap is left
+      // moving along the segment between the nearest points leaves exactly the intended gap
       CHECK(std::abs(d.distance - gap) < 2e-15);
       CHECK_FALSE(colliding(*a, *b, Y));
       check_witness(*a, *b, Y, d);
@@ -90,7 +91,8 @@ TEST_CASE("distance is symmetric") {
   }
 }
 
-TEST_CASE("inside counts as no distance, whatever the limit, and the witness lies in both") {
+TEST_CASE(
+    "a body inside another has distance 0 with any limit, and the reported point lies in both") {
   const auto big = Shape::make(ball(2)), small = Shape::make(box(0.1, 0.1, 0.1));
   const Pose X = Pose::translation({0.5, 0.25, 0});
   for (const double limit : {infinity, 1e-3, 0.0}) {
@@ -105,7 +107,7 @@ TEST_CASE("inside counts as no distance, whatever the limit, and the witness lie
   CHECK(distance(*small, *big, X.inverse()).triangle_b == -1);
 }
 
-TEST_CASE("only distances below the limit are found, meeting is found at any limit") {
+TEST_CASE("only distances below the limit are found, and collisions with any limit") {
   const auto a = Shape::make(box(1, 1, 1));
   const Pose X = Pose::translation({1.5, 0.25, 0});
   CHECK(distance(*a, *a, X).distance == 0.5);
@@ -121,7 +123,7 @@ TEST_CASE("only distances below the limit are found, meeting is found at any lim
                        "distance: limit must be a number [m], got nan", Error);
 }
 
-TEST_CASE("a warm cache gives the distance of a cold one to the bit, along a random walk") {
+TEST_CASE("warm and cold caches give bit-identical distances along a random walk") {
   Random random(4);
   const auto a = Shape::make(potato(random)), b = Shape::make(potato(random, 0.5));
   PairCache cache{1 << 30, -9, 5, 1 << 29};
@@ -140,7 +142,7 @@ TEST_CASE("a warm cache gives the distance of a cold one to the bit, along a ran
   CHECK(hits < 290);
 }
 
-TEST_CASE("distance keeps its digits at a micrometer, and a kilometer from the origin") {
+TEST_CASE("distances keep their accuracy at a micrometer, and a kilometer from the origin") {
   Random random(5);
   const Mesh mesh = potato(random, 1, 6);
   const auto a = Shape::make(mesh), b = Shape::make(scaled(mesh, 0.5));
@@ -159,7 +161,7 @@ TEST_CASE("distance keeps its digits at a micrometer, and a kilometer from the o
   }
 }
 
-TEST_CASE("real meshes: shortened by what they are moved, and symmetric") {
+TEST_CASE("real meshes: distances decrease by the displacement, and are symmetric") {
   REQUIRE_SHARED();
   Random random(6);
   const auto load = [](const char* name) {

@@ -52,7 +52,8 @@ MatrixXd random_turn(int d, uint64_t seed) {
 void check_facets(const Hull& hull, const MatrixXd& points, double size) {
   REQUIRE(hull.normals.cols() == hull.offsets.size());
   REQUIRE(hull.facets.size() == static_cast<size_t>(hull.offsets.size()));
-  // merged facets of qhull keep points within a few hundred roundings of the coordinates
+  // merged facets of qhull contain all points up to a few hundred rounding errors of the
+  // coordinates
   const double tolerance = 1e-12 * size;
   for (int f = 0; f < hull.offsets.size(); ++f) {
     CHECK(std::abs(hull.normals.col(f).norm() - 1) < 1e-12);
@@ -85,14 +86,14 @@ TEST_CASE("cube, cross polytope and simplex have the volume and area of the clos
   }
 }
 
-TEST_CASE("every point lies behind every facet, and its corners on it") {
+TEST_CASE("every point lies behind every facet, and the facet's corners lie on it") {
   for (int d = 2; d <= 6; ++d) {
     const MatrixXd points = random_points(d, 40, d);
     check_facets(convex_hull(points), points, 4);
   }
 }
 
-TEST_CASE("a hull turned, moved and scaled is the same hull") {
+TEST_CASE("a turned, moved and scaled hull is the same hull") {
   for (int d = 2; d <= 6; ++d) {
     const MatrixXd points = random_points(d, 30, 10 + d);
     const Hull plain = convex_hull(points);
@@ -100,7 +101,7 @@ TEST_CASE("a hull turned, moved and scaled is the same hull") {
       const VectorXd shift = VectorXd::Constant(d, 100 * scale);
       const MatrixXd moved = (scale * random_turn(d, d) * points).colwise() + shift;
       const Hull hull = convex_hull(moved);
-      // the shift of 100 sizes costs two digits of sixteen, the sixth power a few more
+      // the shift of 100 sizes costs two digits of sixteen, and the sixth power a few more
       CHECK(hull.volume == doctest::Approx(plain.volume * std::pow(scale, d)).epsilon(1e-11));
       CHECK(hull.area == doctest::Approx(plain.area * std::pow(scale, d - 1)).epsilon(1e-11));
       CHECK(hull.facets.size() == plain.facets.size());
@@ -109,7 +110,7 @@ TEST_CASE("a hull turned, moved and scaled is the same hull") {
   }
 }
 
-TEST_CASE("the triangles of a hull enclose its volume, seen counter-clockwise from outside") {
+TEST_CASE("the triangles of a hull enclose its volume, counter-clockwise as seen from outside") {
   for (int seed = 0; seed < 5; ++seed) {
     const MatrixXd points = random_points(3, 60, seed);
     const Hull hull = convex_hull(points);
@@ -122,7 +123,7 @@ TEST_CASE("the triangles of a hull enclose its volume, seen counter-clockwise fr
   }
 }
 
-TEST_CASE("copies of points and points inside change nothing") {
+TEST_CASE("duplicate and inner points change nothing") {
   for (int d = 2; d <= 6; ++d) {
     MatrixXd points(d, 3 * (1 << d) + 1);
     points << cube(d), cube(d), 0.5 * cube(d), VectorXd::Zero(d);
@@ -132,7 +133,7 @@ TEST_CASE("copies of points and points inside change nothing") {
   }
 }
 
-TEST_CASE("a flat set has no hull and says its rank") {
+TEST_CASE("a flat set has no hull and reports its rank") {
   for (int d = 2; d <= 6; ++d)
     for (int rank = 0; rank < d; ++rank) {
       const MatrixXd flat =
@@ -159,7 +160,7 @@ TEST_CASE("the rank counts directions longer than the tolerance") {
   CHECK(convex_hull(points).volume == doctest::Approx(8e-6).epsilon(1e-9));  // 1e-16 of 1 to 1e-6
 }
 
-TEST_CASE("bad points are refused by index") {
+TEST_CASE("bad points are rejected by index") {
   MatrixXd points = cube(3);
   points(1, 4) = std::nan("");
   CHECK_THROWS_WITH_AS(convex_hull(points),
@@ -176,7 +177,7 @@ TEST_CASE("bad points are refused by index") {
                        "convex_hull: dimension must be in 2..6, got 7", Error);
 }
 
-TEST_CASE("nearly flat sets give a hull or say that they are flat, never a crash") {
+TEST_CASE("nearly flat sets give a hull or a report of flatness, and never a crash") {
   for (int d = 2; d <= 6; ++d)
     for (double thin = 0.3; thin > 1e-18; thin *= 0.01) {
       MatrixXd points = random_points(d, 40, d);

@@ -9,7 +9,7 @@ using namespace clench::test;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-TEST_CASE("a box has the volume, center and inertia of the formulas, wherever it stands") {
+TEST_CASE("a box has the volume, center and inertia of the formulas at any position") {
   Random random(1);
   const Vector3d size(0.1, 0.25, 0.4);
   const Vector3d squares = size.cwiseAbs2();
@@ -26,7 +26,7 @@ TEST_CASE("a box has the volume, center and inertia of the formulas, wherever it
   }
 }
 
-TEST_CASE("a finer and finer ball approaches the formulas with the square of the edge") {
+TEST_CASE("refined balls converge to the formulas with the square of the edge length") {
   const double pi = std::numbers::pi;
   double last = 1;
   for (const int rings : {8, 16, 32, 64}) {
@@ -40,7 +40,7 @@ TEST_CASE("a finer and finer ball approaches the formulas with the square of the
   CHECK(last < 2e-3);
 }
 
-TEST_CASE("parts add up: volumes, and centers by volume") {
+TEST_CASE("parts add up: volumes, and centers weighted by volume") {
   Random random(2);
   const Pose A = random_pose(random, 1), B = random_pose(random, 1);
   const Mesh a = moved(box(1, 2, 3), A), b = moved(ball(0.7), B);
@@ -48,7 +48,7 @@ TEST_CASE("parts add up: volumes, and centers by volume") {
   CHECK(both.volume == doctest::Approx(ma.volume + mb.volume).epsilon(1e-13));
   const Vector3d center = (ma.volume * ma.centroid + mb.volume * mb.centroid) / both.volume;
   CHECK((both.centroid - center).norm() < 1e-14);
-  // parallel axes
+  // parallel axis theorem
   Matrix3d inertia = Matrix3d::Zero();
   for (const MassProperties& m : {ma, mb}) {
     const Vector3d r = m.centroid - center;
@@ -58,7 +58,7 @@ TEST_CASE("parts add up: volumes, and centers by volume") {
   CHECK((both.inertia - inertia).norm() < 1e-14);
 }
 
-TEST_CASE("inside out changes the sign of the volume and nothing else") {
+TEST_CASE("inversion changes only the sign of the volume") {
   const Mesh mesh = moved(box(1, 2, 3), Pose::translation({1, 2, 3}));
   const MassProperties m = solid_mass(mesh), turned = solid_mass(inverted(mesh));
   CHECK(turned.volume == doctest::Approx(-6));
@@ -66,7 +66,7 @@ TEST_CASE("inside out changes the sign of the volume and nothing else") {
   CHECK((m.inertia - turned.inertia).norm() < 1e-14);
 }
 
-TEST_CASE("a flat sheet has no volume, and the center of its surface") {
+TEST_CASE("a flat sheet has no volume, and its center is that of its surface") {
   Mesh sheet;
   sheet.vertices = {{1, 1, 5}, {3, 1, 5}, {3, 2, 5}, {1, 2, 5}};
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -76,8 +76,8 @@ TEST_CASE("a flat sheet has no volume, and the center of its surface") {
   CHECK(m.inertia.isZero(0));
 }
 
-TEST_CASE("the center of the surface weighs triangles by area") {
-  // two far squares of areas 1 and 3
+TEST_CASE("the center of the surface weights triangles by area") {
+  // two distant squares of areas 1 and 3
   Mesh mesh;
   mesh.vertices = {{0, 0, 0},  {1, 0, 0},  {1, 1, 0},  {0, 1, 0},
                    {10, 0, 0}, {13, 0, 0}, {13, 1, 0}, {10, 1, 0}};
@@ -90,7 +90,7 @@ TEST_CASE("the center of the surface weighs triangles by area") {
   CHECK(surface_centroid(Mesh()) == Vector3d::Zero());
 }
 
-TEST_CASE("the largest radius reaches the farthest corner that a triangle uses") {
+TEST_CASE("the maximal radius is that of the farthest corner of any triangle") {
   Mesh mesh = box(2, 4, 4);
   CHECK(largest_radius(mesh, {0, 0, 0}) == 3);
   CHECK(largest_radius(mesh, {-1, -2, -2}) == 6);

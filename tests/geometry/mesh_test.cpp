@@ -25,7 +25,7 @@ Mesh exploded(const Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("bounds and area of a box are those of the formulas") {
+TEST_CASE("bounds and area of a box equal the formulas") {
   const Mesh mesh = box(1, 2, 3);
   CHECK(mesh.bounds().low == Eigen::Vector3d(-0.5, -1, -1.5));
   CHECK(mesh.bounds().size() == Eigen::Vector3d(1, 2, 3));
@@ -37,7 +37,7 @@ TEST_CASE("bounds and area of a box are those of the formulas") {
   CHECK(Mesh().area() == 0);
 }
 
-TEST_CASE("closed meshes have no faults, whatever hangs together in them") {
+TEST_CASE("closed meshes have no faults, with any number of connected parts") {
   CHECK(find_faults(box(1, 1, 1)).none());
   CHECK(find_faults(ball(1)).none());
   CHECK(find_faults(joined(ball(1), box(1, 1, 1))).none());
@@ -45,7 +45,7 @@ TEST_CASE("closed meshes have no faults, whatever hangs together in them") {
   CHECK(find_faults(box(1, 1, 1)).describe() == "no faults");
 }
 
-TEST_CASE("each fault is counted by itself") {
+TEST_CASE("each fault is counted separately") {
   Mesh open = box(1, 1, 1);
   open.triangles.pop_back();
   CHECK(find_faults(open).open_edges == 3);
@@ -59,7 +59,7 @@ TEST_CASE("each fault is counted by itself") {
   CHECK_FALSE(find_faults(flipped).closed());
 
   Mesh twice = box(1, 1, 1);
-  twice.triangles.push_back({3, 0, 2});  // the first one, begun elsewhere
+  twice.triangles.push_back({3, 0, 2});  // the first one, with another starting corner
   CHECK(find_faults(twice).duplicate_triangles == 1);
   CHECK(find_faults(twice).tangled_edges == 3);
   CHECK(find_faults(twice).describe() == "3 tangled edges, 1 duplicate triangle");
@@ -73,14 +73,13 @@ TEST_CASE("each fault is counted by itself") {
   Mesh degenerate = box(1, 1, 1);
   degenerate.triangles.push_back({1, 1, 4});
   CHECK(find_faults(degenerate).degenerate_triangles == 1);
-  CHECK(find_faults(degenerate)
-            .closed());  // a triangle that repeats a vertex has no sides to leave open
+  CHECK(find_faults(degenerate).closed());  // a triangle that repeats a vertex has no open edges
   degenerate.vertices.push_back(0.3 * degenerate.vertices[0] + 0.7 * degenerate.vertices[1]);
-  degenerate.triangles.push_back({0, 1, 8});  // three points in a line
+  degenerate.triangles.push_back({0, 1, 8});  // three collinear points
   CHECK(find_faults(degenerate).degenerate_triangles == 2);
 }
 
-TEST_CASE("welding equal vertices closes what a file took apart, and keeps the order") {
+TEST_CASE("welding equal vertices closes a mesh of separate triangles, and keeps the order") {
   for (const Mesh& mesh : {box(1, 2, 3), ball(0.3), joined(ball(1), box(3, 3, 3))}) {
     const Mesh apart = exploded(mesh);
     CHECK(find_faults(apart).open_edges == 3 * static_cast<int>(apart.triangles.size()));
@@ -95,7 +94,7 @@ TEST_CASE("welding equal vertices closes what a file took apart, and keeps the o
   }
 }
 
-TEST_CASE("zero and minus zero are one place") {
+TEST_CASE("zero and minus zero are the same coordinate") {
   Mesh mesh;
   mesh.vertices = {{0, 1, 2}, {-0.0, 1, 2}, {1, 0, 0}, {1, -0.0, -0.0}, {3, 3, 3}};
   mesh.triangles = {{0, 2, 4}, {1, 3, 4}, {0, 1, 4}};
@@ -106,7 +105,7 @@ TEST_CASE("zero and minus zero are one place") {
   CHECK(welded.triangles[1] == Triangle{0, 1, 2});
 }
 
-TEST_CASE("every vertex goes to the first one kept within the tolerance") {
+TEST_CASE("every vertex is merged into the first kept vertex within the tolerance") {
   Random random(1);
   for (const double tolerance : {0.0, 1e-12, 0.02, 0.3, 100.0}) {
     Mesh mesh = soup(random, 60, 0.1);
@@ -124,7 +123,7 @@ TEST_CASE("every vertex goes to the first one kept within the tolerance") {
   }
 }
 
-TEST_CASE("welding survives tolerances that mean nothing beside the coordinates") {
+TEST_CASE("welding works with tolerances far below or above the coordinates") {
   Mesh mesh = scaled(box(1, 1, 1), 1e20);
   CHECK(weld(exploded(mesh), 1e-300).vertices.size() == 8);
   CHECK(weld(exploded(mesh), 5e-324).vertices.size() == 8);
@@ -138,7 +137,7 @@ TEST_CASE("welding survives tolerances that mean nothing beside the coordinates"
                        "find_faults: triangle 3: vertex index must be in 0..7, got 8", Error);
 }
 
-TEST_CASE("a bad mesh is refused by the number of the vertex or triangle") {
+TEST_CASE("a bad mesh is rejected with the number of the vertex or triangle") {
   const Mesh good = box(1, 1, 1);
   check_mesh(good, "good.obj");
   Mesh bad = good;
@@ -160,7 +159,7 @@ TEST_CASE("a bad mesh is refused by the number of the vertex or triangle") {
                        "bad.obj: at least one triangle expected, got none", Error);
 }
 
-TEST_CASE("faults of any triangles are those that counting one by one finds") {
+TEST_CASE("faults of arbitrary triangles equal a brute-force count") {
   Random random(21);
   for (int n = 0; n < 200; ++n) {
     Mesh mesh;

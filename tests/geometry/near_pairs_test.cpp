@@ -8,7 +8,8 @@
 using namespace clench;
 using namespace clench::test;
 
-TEST_CASE("pairs within a threshold are those of all pairs, in order, with their nearest points") {
+TEST_CASE(
+    "pairs within a threshold equal a search of all pairs, in order, with their nearest points") {
   Random random(1);
   const auto soup_a = Shape::make(soup(random, 45)), soup_b = Shape::make(soup(random, 30));
   const auto ball_a = Shape::make(potato(random, 0.5, 4)),
@@ -36,7 +37,7 @@ TEST_CASE("pairs within a threshold are those of all pairs, in order, with their
   CHECK(found > 1000);
 }
 
-TEST_CASE("faces that rest on each other give all their pairs, and none at threshold 0") {
+TEST_CASE("faces in contact give all their pairs, and none at threshold 0") {
   const auto a = Shape::make(box(1, 1, 1));
   const Pose X = Pose::translation({0, 0, 1});
   const auto pairs = pairs_within(*a, *a, X, 1e-9);

@@ -1,4 +1,4 @@
-// One box of a bundle, as the walks take it out.
+// One box of a bundle, as used by the tree traversals.
 #pragma once
 #include <cstring>
 

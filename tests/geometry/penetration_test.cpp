@@ -36,7 +36,7 @@ Mesh prism(double radius, double height, int sides) {
   return m;
 }
 
-/// the same surface, each triangle cut into four
+/// the same surface, with each triangle divided into four
 Mesh finer(const Mesh& mesh) {
   Mesh out;
   out.vertices = mesh.vertices;
@@ -55,7 +55,7 @@ Mesh finer(const Mesh& mesh) {
   return out;
 }
 
-/// distance to the surface, by all triangles
+/// distance to the surface, by a search of all triangles
 double brute_distance(const Mesh& mesh, const Vector3d& p) {
   double least = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -63,7 +63,8 @@ double brute_distance(const Mesh& mesh, const Vector3d& p) {
   return least;
 }
 
-/// the deepest of random points of both solids, by winding numbers: never above the depth
+/// largest depth of random points inside both solids, by winding numbers: a lower bound of the
+/// depth
 double sampled_depth(Random& random, const Mesh& a, const Mesh& b, int count) {
   const Bounds box_a = a.bounds(), box_b = b.bounds();
   const Vector3d low = box_a.low.cwiseMax(box_b.low), high = box_a.high.cwiseMin(box_b.high);
@@ -81,8 +82,8 @@ const PenetrationOptions by_default;
 
 double tolerance(double depth) { return by_default.absolute + by_default.relative * depth; }
 
-/// Properties of every result: its point lies in both, at the reported depth.
-/// buried  some faces of a are: the nearest is no bound
+/// Properties of every result: its point lies in both solids, at the reported depth.
+/// buried  some faces of a are inside it, so the nearest face does not bound the depth
 void check_point(const Penetration& found, const Mesh& a, const Mesh& b, bool buried = false) {
   CHECK(found.bound >= found.depth);
   CHECK(found.bound <= found.depth + tolerance(found.depth));
@@ -93,7 +94,7 @@ void check_point(const Penetration& found, const Mesh& a, const Mesh& b, bool bu
   CHECK((inside || brute_distance(b, found.point) < 1e-9));
 }
 
-/// that of two meshes in one frame, within the tolerance below `expected`
+/// depth of two meshes in one frame, within the tolerance below `expected`
 void check_depth(const Mesh& a, const Mesh& b, double expected, bool buried = false) {
   Random random(7);
   const Pose X_WA = random_pose(random, 1);
@@ -117,7 +118,8 @@ Mesh placed(const Mesh& mesh, double x, double y, double z) {
 
 TEST_CASE("the depth of two boxes is that of the deepest point of one in the other") {
   const Mesh cube = box(0.06, 0.06, 0.06), bar = box(0.01, 0.01, 0.1);
-  // corners inside, and none: side faces in one plane, a bar through the cube, a plate, crossed bars
+  // with corners inside, and without: coplanar side faces, a bar through the cube, a plate, crossed
+  // bars
   check_depth(cube, placed(bar, 0.001, 0.002, 0.077), 0.003);
   check_depth(cube, placed(cube, 0.05, 0, 0), 0.01);
   check_depth(cube, placed(cube, 0.05, 0.02, 0.01), 0.01);
@@ -125,7 +127,7 @@ TEST_CASE("the depth of two boxes is that of the deepest point of one in the oth
   check_depth(box(0.06, 0.06, 0.005), bar, 0.0025);
   check_depth(placed(box(0.1, 0.01, 0.01), 0, 0.008, 0), bar, 0.002);
   check_depth(bar, cube, 0.005);
-  // one within the other
+  // one inside the other
   check_depth(cube, placed(box(0.01, 0.01, 0.01), 0.02, 0, 0), 0.015);
   check_depth(placed(box(0.01, 0.01, 0.01), 0.02, 0, 0), cube, 0.005);
   check_depth(cube, cube, 0.03);
@@ -135,7 +137,7 @@ TEST_CASE("the depth in a prism is at most the radius of its inscribed cylinder"
   const Mesh cylinder = prism(0.03, 0.08, 48), bar = box(0.1, 0.01, 0.01);
   const double inscribed = 0.03 * std::cos(std::numbers::pi / 48);
   check_depth(cylinder, bar, inscribed);
-  // beside the axis, by the planes of a face
+  // off the axis, by the planes of a face
   check_depth(prism(0.03, 0.08, 4), placed(bar, 0, 0, 0.038), 0.007);
   check_depth(bar, cylinder, 0.005);
 }
@@ -153,7 +155,7 @@ TEST_CASE("balls: concentric, apart, and one just inside the other") {
             .depth == 0);
 }
 
-TEST_CASE("a hollow is outside: the depth in a shell is at most half its thickness") {
+TEST_CASE("a cavity is outside: the depth in a shell is at most half its thickness") {
   const Mesh shell = joined(box(0.1, 0.1, 0.1), inverted(box(0.08, 0.08, 0.08)));
   check_depth(shell, placed(box(0.02, 0.02, 0.05), 0, 0, 0.05), 0.005);
   check_depth(shell, placed(box(0.02, 0.02, 0.05), 0, 0, 0.066), 0.005);
@@ -161,9 +163,9 @@ TEST_CASE("a hollow is outside: the depth in a shell is at most half its thickne
   CHECK(penetration(*Shape::make(shell), *Shape::make(box(0.02, 0.02, 0.05)), {}).depth == 0);
 }
 
-TEST_CASE("faces buried in a union of parts are no surface") {
+TEST_CASE("faces inside a union of parts do not belong to its surface") {
   const Mesh bar = box(0.01, 0.01, 0.2);
-  // parts that overlap, that adjoin, and one within another
+  // parts that overlap, that adjoin, and one inside another
   const Mesh overlapping =
       joined(placed(box(0.06, 0.06, 0.06), -0.01, 0, 0), placed(box(0.06, 0.06, 0.06), 0.01, 0, 0));
   check_depth(overlapping, bar, 0.03, true);
@@ -175,12 +177,13 @@ TEST_CASE("faces buried in a union of parts are no surface") {
                      placed(box(0.03, 0.06, 0.06), 0.015, 0, 0)),
               placed(bar, -0.004, 0, 0), std::hypot(0.01, 0.001), true);
   check_depth(joined(box(0.06, 0.06, 0.06), box(0.02, 0.02, 0.02)), bar, 0.03, true);
-  // a cross of two beams: the deepest point is as far from its four inner edges
+  // a cross of two beams: the deepest point has equal distances from its four inner edges
   check_depth(joined(box(0.06, 0.02, 0.06), box(0.02, 0.06, 0.06)), bar, std::hypot(0.01, 0.01),
               true);
 }
 
-TEST_CASE("random bodies: no sampled point is deeper, and the point found is as deep as it says") {
+TEST_CASE(
+    "random bodies: no sampled point is deeper, and the reported point has the reported depth") {
   Random random(3);
   for (int i = 0; i < 30; ++i) {
     const Mesh a = potato(random, 0.05, 5), b = potato(random, i % 2 ? 0.05 : 0.02, 5);
@@ -195,12 +198,13 @@ TEST_CASE("random bodies: no sampled point is deeper, and the point found is as 
   }
 }
 
-TEST_CASE("there is a depth where solids overlap, however little, and none where they touch") {
+TEST_CASE(
+    "overlapping solids have a positive depth, however small, and touching solids have none") {
   Random random(5);
   const Mesh a = potato(random, 0.05, 6), b = potato(random, 0.03, 6);
   const auto shape_a = Shape::make(a), shape_b = Shape::make(b);
   for (int i = 0; i < 15; ++i) {
-    // along a line until they touch, then a little farther
+    // along a line until they touch, then slightly farther
     const Eigen::Quaterniond turn = random_turn(random);
     const Vector3d along = random_direction(random);
     const auto at = [&](double s) { return Pose{turn, s * along}; };
@@ -219,7 +223,7 @@ TEST_CASE("there is a depth where solids overlap, however little, and none where
   }
 }
 
-TEST_CASE("faces, edges and corners that touch have no depth") {
+TEST_CASE("touching faces, edges and corners have no depth") {
   const auto cube = Shape::make(box(0.06, 0.06, 0.06)), bar = Shape::make(box(0.01, 0.01, 0.1));
   Random random(6);
   for (const Vector3d& p : {Vector3d(0, 0, 0.08), Vector3d(0.035, 0, 0), Vector3d(0.035, 0.035, 0),
@@ -227,17 +231,17 @@ TEST_CASE("faces, edges and corners that touch have no depth") {
     CHECK(penetration(*cube, *bar, Pose::translation(p)).depth == 0);
     CHECK(penetration(*bar, *cube, Pose::translation(-p)).depth == 0);
   }
-  // a mesh that is not convex takes no planes for bounds
+  // the depth of a mesh that is not convex is not bounded by planes
   const auto shell = Shape::make(joined(box(0.06, 0.06, 0.06), inverted(box(0.04, 0.04, 0.04))));
   CHECK(penetration(*shell, *bar, Pose::translation({0.002, 0.001, 0.08})).depth == 0);
 }
 
-TEST_CASE("open meshes: nothing is inside one, and of one the surface counts") {
+TEST_CASE("nothing is inside an open mesh, but its surface can penetrate a closed one") {
   Mesh open = box(0.06, 0.06, 0.06);
   open.triangles.pop_back();
   const auto cup = Shape::make(open), bar = Shape::make(box(0.01, 0.01, 0.1));
   CHECK(penetration(*cup, *bar, {}).depth == 0);
-  // its bottom crosses the bar; the solid that it would hold does not count
+  // its bottom crosses the bar; the solid that it would enclose does not count
   CHECK(penetration(*bar, *cup, {}).depth == doctest::Approx(0.005).epsilon(1e-3));
   Mesh sheet = box(0.06, 0.06, 0.06);
   sheet.triangles = {sheet.triangles[0], sheet.triangles[1]};
@@ -246,7 +250,7 @@ TEST_CASE("open meshes: nothing is inside one, and of one the surface counts") {
   CHECK(found.depth == doctest::Approx(0.003).epsilon(1e-6));
 }
 
-TEST_CASE("meshes of a micrometer and of a kilometer have depths that scale") {
+TEST_CASE("depths of meshes of a micrometer and of a kilometer scale with size") {
   Random random(8);
   const Mesh a = potato(random, 1, 5), b = potato(random, 0.5, 5);
   const Pose X{random_turn(random), {0.6, 0.5, 0.3}};
@@ -277,7 +281,7 @@ TEST_CASE("a search with a short queue keeps the tolerance") {
   }
 }
 
-TEST_CASE("a shape keeps the boundary of its union, unless a stop interrupts the search for it") {
+TEST_CASE("a shape stores the boundary of its union, unless its computation is stopped") {
   Mesh both = box(1, 1, 1);
   const Mesh other = box(1, 1, 1);
   const int first = static_cast<int>(both.vertices.size());
@@ -296,7 +300,7 @@ TEST_CASE("a shape keeps the boundary of its union, unless a stop interrupts the
   CHECK(exposed_surface(*shape) == kept);
 }
 
-TEST_CASE("tolerances must be above 0, and a watcher ends the search") {
+TEST_CASE("tolerances must be above 0, and a watcher stops the search") {
   const auto cube = Shape::make(box(1, 1, 1));
   CHECK_THROWS_WITH_AS(penetration(*cube, *cube, {}, {.absolute = 0}),
                        "penetration: expected tolerances > 0, got 0 and 0.001", Error);

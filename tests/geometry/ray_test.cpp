@@ -11,8 +11,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Intersection of the line and the plane, if it lies in the triangle: brute-force reference.
-// Near edges (within 1e-9 of the size) both results are accepted: no point is returned.
+// Intersection of the line and the plane, if it lies in the triangle: brute-force reference. Near
+// edges (within 1e-9 of the size) both results are accepted: no point is returned.
 struct Expected {
   double distance = std::numeric_limits<double>::infinity();
   bool sure = true;
@@ -35,7 +35,7 @@ Expected first_of_all(const Mesh& mesh, const Vector3d& origin, const Vector3d& 
 
 }  // namespace
 
-TEST_CASE("a ray meets the first of all triangles") {
+TEST_CASE("a ray hits the first of all triangles") {
   Random random(1);
   int hits = 0;
   for (const Mesh& mesh : {soup(random, 120), potato(random)}) {
@@ -48,7 +48,7 @@ TEST_CASE("a ray meets the first of all triangles") {
       REQUIRE(hit.has_value() == std::isfinite(expected.distance));
       if (!hit) continue;
       ++hits;
-      // a plane met at a grazing angle of 1e-3 loses three digits
+      // a plane hit at a grazing angle of 1e-3 loses three digits
       CHECK(hit->distance == doctest::Approx(expected.distance).epsilon(1e-11));
       CHECK((origin + hit->distance * direction - hit->point).norm() < 1e-15);
       CHECK(point_triangle(hit->point, mesh.corners(hit->triangle)).distance < 1e-12);
@@ -59,7 +59,7 @@ TEST_CASE("a ray meets the first of all triangles") {
   CHECK(hits > 100);
 }
 
-TEST_CASE("no ray slips out between triangles, through corners and edges included") {
+TEST_CASE("no ray passes between triangles, including rays through corners and edges") {
   Random random(2);
   const Mesh mesh = potato(random);
   const auto shape = Shape::make(mesh);
@@ -72,7 +72,7 @@ TEST_CASE("no ray slips out between triangles, through corners and edges include
   }
 }
 
-TEST_CASE("rays along the axes of a box meet it where they should") {
+TEST_CASE("rays along the axes of a box hit it at the expected points") {
   const auto cube = Shape::make(box(2, 2, 2));
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {-1.0, 1.0}) {
@@ -87,11 +87,13 @@ TEST_CASE("rays along the axes of a box meet it where they should") {
       CHECK_FALSE(cast_ray(*cube, 3 * direction, direction).has_value());
       CHECK(cast_ray(*cube, direction, direction)->distance == 0);
     }
-  // two triangles share the diagonal: the lower index answers
+  // two triangles share the diagonal: the lower index is returned
   CHECK(cast_ray(*cube, {0, 0, 5}, {0, 0, -1})->triangle == 2);
 }
 
-TEST_CASE("a ray without unit direction or with numbers missing is refused") {
+TEST_CASE(
+    "a ray whose direction is not a unit vector, or with numbers that are not finite, is "
+    "rejected") {
   const auto shape = Shape::make(box(1, 1, 1));
   CHECK_THROWS_WITH_AS(cast_ray(*shape, {0, 0, 0}, {0, 0, 2}),
                        "cast_ray: direction must be a unit vector, got (0, 0, 2)", Error);

@@ -9,7 +9,7 @@ using namespace clench;
 using namespace clench::test;
 using Eigen::Vector3d;
 
-TEST_CASE("a region holds just the triangles nearer than the radius, in order") {
+TEST_CASE("a region contains exactly the triangles closer than the radius, in order") {
   Random random(1);
   for (const auto& shape : {Shape::make(soup(random, 150)), Shape::make(potato(random))})
     for (int i = 0; i < 150; ++i) {
@@ -22,7 +22,7 @@ TEST_CASE("a region holds just the triangles nearer than the radius, in order") 
     }
 }
 
-TEST_CASE("a radius of 0 takes nothing, an infinite one everything, not a number is refused") {
+TEST_CASE("a radius of 0 selects nothing, an infinite one everything, and NaN is rejected") {
   const auto shape = Shape::make(box(1, 1, 1));
   CHECK(region(*shape, {0.5, 0, 0}, 0).empty());
   CHECK(region(*shape, {0.5, 0, 0}, std::numeric_limits<double>::infinity()).size() == 12);

@@ -11,7 +11,7 @@ namespace clench::test {
 
 using Eigen::Vector3d;
 
-// every kind, slender ones and flat ones
+// every kind, slender and flat
 static std::vector<Round> solids() {
   return {Round::ball(0.4),
           Round::capsule_of(0.2, 0.7),
@@ -24,7 +24,7 @@ static std::vector<Round> solids() {
           Round::ellipsoid_of({0.05, 0.04, 0.6})};
 }
 
-// A point of the surface, found from a direction; of cylinders half of them on the caps.
+// A point of the surface in a random direction; for cylinders half of the points are on the caps.
 static Vector3d skin_point(const Round& round, Random& random) {
   const Vector3d n = random_direction(random);
   if (round.kind != Round::cylinder) {
@@ -44,7 +44,7 @@ static Vector3d skin_point(const Round& round, Random& random) {
          Vector3d(0, 0, n.z() < 0 ? -round.half : round.half);
 }
 
-TEST_CASE("the nearest point of a round solid is on its surface, and no other is nearer") {
+TEST_CASE("the nearest point of a round solid is on its surface, and no other point is nearer") {
   Random random(1);
   for (const Round& round : solids())
     for (int i = 0; i < 60; ++i) {
@@ -55,7 +55,7 @@ TEST_CASE("the nearest point of a round solid is on its surface, and no other is
       CAPTURE(p.transpose());
       CHECK(std::abs(nearest(round, on).distance) < 1e-12);
       CHECK(std::abs(near.normal.norm() - 1) < 1e-12);
-      // the tangent plane there has the solid below it
+      // the solid lies below its tangent plane there
       CHECK((support(round, near.normal) - on).dot(near.normal) < 1e-9);
       double least = 1e9;
       for (int k = 0; k < 300; ++k) least = std::min(least, (skin_point(round, random) - p).norm());
@@ -64,7 +64,8 @@ TEST_CASE("the nearest point of a round solid is on its surface, and no other is
 }
 
 TEST_CASE(
-    "a point outside a round solid is as far as the best plane between says, and convexly so") {
+    "the distance of a point outside a round solid equals that of the best separating plane, and "
+    "is convex") {
   Random random(2);
   for (const Round& round : solids())
     for (int i = 0; i < 100; ++i) {
@@ -80,7 +81,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("the nearest place on a triangle has no nearer one among thousands") {
+TEST_CASE("among thousands of points of a triangle, none is nearer than the reported one") {
   Random random(3);
   for (const Round& solid : solids())
     for (int i = 0; i < 25; ++i) {
@@ -98,7 +99,7 @@ TEST_CASE("the nearest place on a triangle has no nearer one among thousands") {
         }
       CAPTURE(solid.kind);
       CAPTURE(i);
-      // it is a place of the triangle
+      // it is a point of the triangle
       CHECK(point_triangle(found.point, c).distance < 1e-9);
       CHECK(std::abs(round.nearest_to(found.point).distance - found.distance) < 1e-9);
       if (least > 0) CHECK(found.distance <= least + 1e-9);
@@ -107,7 +108,7 @@ TEST_CASE("the nearest place on a triangle has no nearer one among thousands") {
     }
 }
 
-TEST_CASE("two round solids are as far apart as the nearest of many points, either way round") {
+TEST_CASE("the gap of two round solids equals a search of many points, in either order") {
   Random random(4);
   int apart = 0, overlapping = 0;
   for (const Round& first : solids())
@@ -121,7 +122,7 @@ TEST_CASE("two round solids are as far apart as the nearest of many points, eith
         CAPTURE(first.kind);
         CAPTURE(second.kind);
         CAPTURE(i);
-        // points of b's surface, ever nearer to a: the best, then others about it
+        // points of b's surface, increasingly near to a: the best one, then others around it
         double least = 1e9;
         Vector3d best = b.center();
         for (int k = 0; k < 400; ++k) {
@@ -142,7 +143,7 @@ TEST_CASE("two round solids are as far apart as the nearest of many points, eith
           CHECK(std::abs((found.p_b - found.p_a).norm() - found.gap) < 1e-8);
           CHECK(std::abs(a.nearest_to(found.p_a).distance) < 1e-8);
           CHECK(std::abs(b.nearest_to(found.p_b).distance) < 1e-8);
-          // a plane lies between
+          // a plane separates them
           CHECK(found.normal.dot(b.farthest(-found.normal) - a.farthest(found.normal)) >
                 found.gap - 1e-7);
         } else {
@@ -155,15 +156,14 @@ TEST_CASE("two round solids are as far apart as the nearest of many points, eith
   CHECK(overlapping > 100);
 }
 
-// The mesh of a solid with its formula, and without.
+// The mesh that represents a round solid.
 static Mesh standing_for(const Round& round) {
   Mesh mesh = ball(1, 40, 80);
   for (Vector3d& p : mesh.vertices) p = support(round, p.normalized());
   return mesh;
 }
 
-TEST_CASE(
-    "shapes with round pieces are where their formulas say, and the rest where its triangles") {
+TEST_CASE("round pieces of shapes follow their formulas, and the rest its triangles") {
   Random random(5);
   for (const Round& solid : {Round::capsule_of(0.2, 0.7), Round::cylinder_of(0.3, 0.5),
                              Round::ellipsoid_of({0.3, 0.4, 0.5})})

@@ -38,7 +38,7 @@ double excess_of(const Mesh& mesh, Random& random) {
     const double excess =
         (highest(shape->tree().bounding_polytope(), n) - highest(mesh, center, n)) /
         std::max(shape->radius(), 1e-300);
-    // bounding_polytope.h says by how much rounding may let it fall short
+    // the rounding bound of bounding_polytope.h
     CHECK(excess > -16 * 0x1p-24);
     most = std::max(most, excess);
   }
@@ -47,21 +47,21 @@ double excess_of(const Mesh& mesh, Random& random) {
 
 }  // namespace
 
-TEST_CASE("a bounding_polytope holds its mesh, and lies close around it") {
+TEST_CASE("a bounding polytope contains its mesh, and fits it closely") {
   Random random(1);
-  // three faces meet in most of the 128 corners: 66 of them, evenly about a ball, leave 5 % of its
-  // radius at the corners; not quite evenly, twice as much
+  // three faces meet at most of the 128 corners: 66 faces, evenly around a ball, exceed it by 5 %
+  // of its radius at the corners; if slightly uneven, by twice as much
   CHECK(excess_of(ball(1, 40, 80), random) < 0.12);
   CHECK(excess_of(potato(random, 1, 20), random) < 0.12);
   CHECK(excess_of(moved(scaled(ball(1, 12, 30), 1e-6), Pose::translation({1, 0, 0})), random) <
         0.12);
-  // few vertices: it is their hull
+  // for few vertices it is their hull
   CHECK(excess_of(box(1, 2, 3), random) < 1e-6);
   CHECK(excess_of(potato(random, 1, 6), random) < 1e-6);
   CHECK(excess_of(soup(random, 30), random) < 1e-6);
 }
 
-TEST_CASE("a bounding_polytope holds what has no volume, no area, or no size") {
+TEST_CASE("a bounding polytope contains meshes without volume, area or size") {
   Random random(2);
   Mesh flat = ball(1, 20, 30), needle = flat, spot = flat;
   for (Vector3d& p : flat.vertices) p.z() = 0.3 * p.x();
@@ -75,7 +75,7 @@ TEST_CASE("a bounding_polytope holds what has no volume, no area, or no size") {
   CHECK(excess_of(slivers, random) < 0.12);
 }
 
-TEST_CASE("a separation that is found is one, whatever it was begun with") {
+TEST_CASE("a reported separation is correct for any starting direction") {
   Random random(3);
   const std::vector<ShapePtr> shapes = {
       Shape::make(potato(random, 1, 12)), Shape::make(box(1, 0.2, 3)),
@@ -102,15 +102,15 @@ TEST_CASE("a separation that is found is one, whatever it was begun with") {
     const double gap = n.dot(X.position) -
                        highest(b.mesh(), Vector3d::Zero(), -(X.rotation.inverse() * n)) -
                        highest(a.mesh(), Vector3d::Zero(), n);
-    // in units of 100 m, the farthest coordinate
+    // rounding errors at 100 m, the farthest coordinate
     CHECK(gap > reach - 1e-13);
   }
-  // those that are not convex may interlock
+  // meshes that are not convex may interlock without a separating plane
   CHECK(beside > 200);
   CHECK(found > 0.9 * beside);
 }
 
-TEST_CASE("a direction that the cache remembers changes no answer along a slow walk") {
+TEST_CASE("a cached direction changes no answer along a slow walk") {
   Random random(4);
   const auto a = Shape::make(potato(random, 1, 12)), b = Shape::make(potato(random, 0.6, 12));
   PairCache cache;

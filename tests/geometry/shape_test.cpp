@@ -12,7 +12,7 @@ using namespace clench;
 using namespace clench::test;
 using Eigen::Vector3d;
 
-TEST_CASE("a shape knows its mesh, faults, mass and bounds") {
+TEST_CASE("a shape has its mesh, faults, mass properties and bounds") {
   const ShapePtr shape = Shape::make(moved(box(1, 2, 2), Pose::translation({5, 0, 0})));
   CHECK(shape->mesh().triangles.size() == 12);
   CHECK(shape->closed());
@@ -26,7 +26,7 @@ TEST_CASE("a shape knows its mesh, faults, mass and bounds") {
   CHECK_FALSE(shape->has_triangle(-1));
 }
 
-TEST_CASE("the sphere holds every corner, the bounds leave out what no triangle uses") {
+TEST_CASE("the sphere contains every corner, and the bounds omit unused corners") {
   Random random(1);
   Mesh mesh = moved(potato(random), random_pose(random, 10));
   const Bounds used = mesh.bounds();
@@ -37,7 +37,7 @@ TEST_CASE("the sphere holds every corner, the bounds leave out what no triangle 
     CHECK((mesh.vertices[i] - shape->center()).norm() <= shape->radius());
 }
 
-TEST_CASE("closed bodies that bulge everywhere are convex") {
+TEST_CASE("closed bodies without concave edges are convex") {
   Random random(4);
   const auto convex = [](const Mesh& mesh) { return Shape::make(mesh)->convex(); };
   CHECK(convex(box(1, 2, 3)));
@@ -51,7 +51,7 @@ TEST_CASE("closed bodies that bulge everywhere are convex") {
   Mesh open = box(1, 1, 1);
   open.triangles.pop_back();
   CHECK_FALSE(convex(open));
-  // too large to tell
+  // too large to be tested
   CHECK_FALSE(convex(ball(0.1, 60, 60)));
 }
 
@@ -60,7 +60,7 @@ TEST_CASE("each connected part is named by its first triangle") {
   const int count = static_cast<int>(one.triangles.size());
   CHECK(Shape::make(one)->parts() == std::vector<int>{0});
   CHECK(Shape::make(two)->parts() == std::vector<int>{0, count});
-  // corners at one place connect, as in a file without indices
+  // corners with equal coordinates connect, as in a file without indices
   Mesh fan;
   fan.vertices = {{0, 0, 0},  {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {-1, 0, 0},
                   {0, -1, 0}, {2, 2, 2}, {3, 2, 2}, {2, 3, 2}};
@@ -68,7 +68,7 @@ TEST_CASE("each connected part is named by its first triangle") {
   CHECK(Shape::make(fan)->parts() == std::vector<int>{0, 2});
 }
 
-TEST_CASE("a bad mesh is refused in the words of its subject") {
+TEST_CASE("a bad mesh is rejected with the name of its subject") {
   Mesh mesh = box(1, 1, 1);
   mesh.vertices[2].x() = std::nan("");
   CHECK_THROWS_WITH_AS(Shape::make(mesh, "mug.iv"),
@@ -78,7 +78,7 @@ TEST_CASE("a bad mesh is refused in the words of its subject") {
   CHECK_THROWS_WITH_AS(Shape::make({}), "mesh: at least one triangle expected, got none", Error);
 }
 
-TEST_CASE("shapes are made of anything finite: copies, points, needles, geometric series") {
+TEST_CASE("shapes accept all finite meshes: copies, points, needles, geometric series") {
   Mesh heap;
   for (int i = 0; i < 300; ++i) {
     const int v = static_cast<int>(heap.vertices.size());
@@ -93,7 +93,7 @@ TEST_CASE("shapes are made of anything finite: copies, points, needles, geometri
   }
 }
 
-TEST_CASE("threads that ask a shape for its tree at once are given the same one") {
+TEST_CASE("threads that request the tree of a shape concurrently get the same tree") {
   const ShapePtr shape = Shape::make(ball(1, 30, 60));
   std::array<const Tree*, 8> trees = {};
   {

@@ -1,4 +1,4 @@
-// Long queries and the making of shapes check often whether they are to stop.
+// Long queries and the construction of shapes check for stops often.
 #include <doctest/doctest.h>
 
 #include "clench/base/random.h"
@@ -13,7 +13,7 @@ using namespace clench::test;
 
 namespace {
 
-// stops at each of some checks, early and late; then gives the same as if it had not
+// stops at several checks, early and late
 template <class Call>
 void stops_anywhere(Call call) {
   uint64_t checks = 0;
@@ -30,7 +30,7 @@ void stops_anywhere(Call call) {
   }
 }
 
-// one in the other, everywhere equally far apart: no triangle is spared
+// one inside the other at a constant distance, so that no triangle can be skipped
 struct Nested {
   std::shared_ptr<const Shape> outer = Shape::make(ball(1, 60, 120)),
                                inner = Shape::make(ball(0.99, 60, 120));
@@ -38,7 +38,7 @@ struct Nested {
 
 }  // namespace
 
-TEST_CASE("a distance that looks at all triangles checks every few thousand boxes") {
+TEST_CASE("a query that visits all triangles checks for stops every few thousand boxes") {
   const Nested nested;
   nested.outer->tree(), nested.inner->tree();
   const auto ask = [&] { return pairs_within(*nested.outer, *nested.inner, {}, 0.02).size(); };
@@ -51,7 +51,8 @@ TEST_CASE("a distance that looks at all triangles checks every few thousand boxe
   CHECK(ask() == count);
 }
 
-TEST_CASE("a shape and its tree are made with a check every few thousand triangles") {
+TEST_CASE(
+    "the construction of a shape and its tree checks for stops every few thousand triangles") {
   const Mesh mesh = ball(1, 120, 240);
   const Watched watched{Progress()};
   const auto shape = Shape::make(mesh);
@@ -61,7 +62,7 @@ TEST_CASE("a shape and its tree are made with a check every few thousand triangl
   CHECK(watched.checks() - before >= mesh.triangles.size() / 1024);
 }
 
-TEST_CASE("a shape whose tree was stopped makes it when it is next asked for") {
+TEST_CASE("a shape whose tree construction was stopped builds it at the next request") {
   const auto shape = Shape::make(ball(1, 60, 120)), other = Shape::make(ball(1, 60, 120));
   const Pose X_AB = Pose::translation({2.5, 0.1, 0.2});
   for (const uint64_t at : {1, 50, 500}) {
@@ -72,7 +73,7 @@ TEST_CASE("a shape whose tree was stopped makes it when it is next asked for") {
   CHECK(distance(*shape, *shape, X_AB).distance == distance(*other, *other, X_AB).distance);
 }
 
-TEST_CASE("a hull stops between two points that it adds, and its memory is freed") {
+TEST_CASE("a hull stops between two added points, and frees its memory") {
   Random random(1);
   Eigen::MatrixXd points(5, 400);
   for (int i = 0; i < points.cols(); ++i) {

@@ -16,7 +16,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-// adds the triangles below a box, each within every box on the way down; returns the depth
+// collects the triangles below a box, and checks that all boxes above contain them; returns the
+// depth
 int gather(const Shape& shape, int bundle, int lane, std::vector<int>& triangles) {
   const Tree& tree = shape.tree();
   const BoxBundle& boxes = tree.boxes(bundle);
@@ -41,7 +42,7 @@ int gather(const Shape& shape, int bundle, int lane, std::vector<int>& triangles
                               boxes.axes[3 * k + 2][lane]),
             center(boxes.center[0][lane], boxes.center[1][lane], boxes.center[2][lane]);
         CHECK(std::abs(stored.dot(local - center)) - boxes.half[k][lane] <= rounding);
-        // the box that double precision makes of it holds the same
+        // the box converted to double precision contains the same
         const auto& axis = straight.axis[k];
         CHECK(std::abs(Vector3d(axis.x, axis.y, axis.z).dot(local - center)) <=
               straight.half[k] + rounding);
@@ -52,9 +53,9 @@ int gather(const Shape& shape, int bundle, int lane, std::vector<int>& triangles
 
 }  // namespace
 
-TEST_CASE("a tree holds every triangle once, in boxes that hold it, and stays shallow") {
+TEST_CASE("a tree contains every triangle once, in boxes that contain it, and has a small depth") {
   Random random(1);
-  // the last one doubles its coordinates from triangle to triangle
+  // the coordinates of the last one double from triangle to triangle
   std::vector<Mesh> meshes = {soup(random, 200), potato(random), ball(1, 20, 40), {}};
   for (int i = 0; i < 90; ++i) {
     const double x = std::pow(2, i - 62);
@@ -70,7 +71,7 @@ TEST_CASE("a tree holds every triangle once, in boxes that hold it, and stays sh
     std::sort(triangles.begin(), triangles.end());
     REQUIRE(triangles.size() == mesh.triangles.size());
     for (size_t i = 0; i < triangles.size(); ++i) CHECK(triangles[i] == static_cast<int>(i));
-    // eight children a node: a few levels, or as many as the doublings allow
+    // eight children per node: a few levels, or as many as the doublings require
     CHECK(depth <= (&mesh == &meshes[3] ? 40 : 6));
   }
 }
@@ -102,10 +103,10 @@ BoxBundle random_boxes(Random& random) {
 
 }  // namespace
 
-TEST_CASE("the gaps of boxes are never more than their distance, and tell all apart that are") {
+TEST_CASE("gaps of boxes never exceed their distance, and separate all boxes that are apart") {
   Random random(2);
   using F = Lanes<float, 4>;
-  // for coordinates below 8: as precision.h says
+  // rounding bound of precision.h, for coordinates below 8
   const double slack = 64 * 0x1p-24 * 8;
   int apart = 0, found = 0;
   for (int i = 0; i < 40; ++i) {

@@ -23,7 +23,7 @@ double extent(const Corners& a, const Corners& b) {
   return size;
 }
 
-// distance of x from the hull of the corners: exact formulas would give 0
+// distance of x from the triangle: exact formulas would give 0
 double outside(const Vector3d& x, const Corners& t) {
   const auto area = [](const Vector3d& u, const Vector3d& v) { return u.cross(v).norm(); };
   const double whole = area(t[1] - t[0], t[2] - t[0]);
@@ -38,9 +38,10 @@ double outside(const Vector3d& x, const Corners& t) {
   return std::min(nearest_edge, (parts - whole) / perimeter);
 }
 
-// Proof, not reference: nearest points of convex sets are those whose connection parts the sets.
+// A proof instead of a reference: nearest points of convex sets are those whose connecting line
+// separates the sets.
 void check_certificate(const Corners& a, const Corners& b) {
-  const double size = extent(a, b), tolerance = 1e-13 * size;  // some 500 roundings
+  const double size = extent(a, b), tolerance = 1e-13 * size;  // some 500 rounding errors
   const Closest c = triangle_triangle(a, b);
   CHECK(triangles_meet(a, b) == (c.distance == 0));
   CHECK(triangles_meet(b, a) == triangles_meet(a, b));
@@ -54,7 +55,7 @@ void check_certificate(const Corners& a, const Corners& b) {
   }
 }
 
-// corners of all kinds: random ones, and ones of a small grid, which touch, coincide and degenerate
+// corners of all kinds: random ones, and ones of a small grid, which touch, coincide or degenerate
 Corners random_triangle(Random& random, bool grid) {
   Corners t;
   for (Vector3d& p : t) {
@@ -77,7 +78,7 @@ TEST_CASE("nearest points of random triangles are certified by the plane between
   }
 }
 
-TEST_CASE("so are those of triangles that touch, share corners, lie in one plane or have no area") {
+TEST_CASE("the same for triangles that touch, share corners, are coplanar or have no area") {
   Random random(2);
   int touching = 0, meeting = 0;
   for (int i = 0; i < 10000; ++i) {
@@ -90,7 +91,7 @@ TEST_CASE("so are those of triangles that touch, share corners, lie in one plane
   CHECK(meeting > 100);
 }
 
-TEST_CASE("touching counts as meeting") {
+TEST_CASE("touching triangles intersect") {
   const Corners t = triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   CHECK(triangles_meet(t, t));
   CHECK(triangles_meet(t, triangle({0, 0, 0}, {-1, 0, 1}, {0, -1, 1})));         // corner to corner
@@ -99,12 +100,13 @@ TEST_CASE("touching counts as meeting") {
   CHECK(triangles_meet(t, triangle({0.5, -1, -1}, {0.5, 1, 1}, {0.5, -2, 0})));  // edge on edge
   CHECK(triangles_meet(t, triangle({1, 0, 0}, {0, 1, 0}, {1, 1, 0})));           // a whole edge
   CHECK(triangles_meet(t,
-                       triangle({0.1, 0.1, 0}, {0.2, 0.1, 0}, {0.1, 0.2, 0})));  // one in the other
+                       // one inside the other
+                       triangle({0.1, 0.1, 0}, {0.2, 0.1, 0}, {0.1, 0.2, 0})));
   CHECK_FALSE(triangles_meet(t, triangle({1, 0.1, 0}, {0.1, 1, 0}, {1, 1, 0})));
   CHECK_FALSE(triangles_meet(t, triangle({0, 0, 1e-9}, {1, 0, 1e-9}, {0, 1, 1e-9})));
 }
 
-TEST_CASE("a triangle without area is the segment or the point that it covers") {
+TEST_CASE("a triangle without area is a segment or a point") {
   const Vector3d o(0, 0, 0), x(1, 0, 0), y(0, 1, 0), up(0.25, 0.25, 2), down(0.25, 0.25, -2);
   const Corners face = triangle(o, x, y), point = triangle(up, up, up),
                 segment = triangle(up, down, down), line = triangle(up, 0.5 * (up + down), down);
@@ -121,7 +123,7 @@ TEST_CASE("a triangle without area is the segment or the point that it covers") 
   CHECK(point_triangle(Vector3d(0.5, 3, 0), triangle(o, x, o)).distance == 3);
 }
 
-TEST_CASE("slivers are as good as the segments they resemble") {
+TEST_CASE("results for slivers agree with those for segments") {
   Random random(3);
   for (int i = 0; i < 3000; ++i) {
     Corners a = random_triangle(random, false);
@@ -129,13 +131,14 @@ TEST_CASE("slivers are as good as the segments they resemble") {
     const double thin = std::pow(10, random.uniform(-18, -3));
     a[2] = a[0] + random.uniform() * (a[1] - a[0]) + thin * random_point(random);
     check_certificate(a, b);
-    // the sliver's third corner strays from the segment by thin times a normal number's length
+    // the sliver's third corner deviates from the segment by `thin` times the length of a normal
+    // vector
     const double along_edge = triangle_triangle({a[0], a[1], a[1]}, b).distance;
     CHECK(std::abs(triangle_triangle(a, b).distance - along_edge) < 8 * thin + 1e-13);
   }
 }
 
-TEST_CASE("nearly parallel edges keep their digits") {
+TEST_CASE("nearly parallel edges keep their accuracy") {
   Random random(4);
   for (int i = 0; i < 3000; ++i) {
     // two unit segments that cross over one point at a height and a tiny angle
@@ -145,12 +148,12 @@ TEST_CASE("nearly parallel edges keep their digits") {
     const Vector3d n = u.unitOrthogonal(), v = std::cos(angle) * u + std::sin(angle) * n.cross(u);
     const Closest c = segment_segment(middle - u, middle + 0.7 * u, middle + height * n - 0.3 * v,
                                       middle + height * n + v);
-    // a few roundings of coordinates of size 3
+    // a few rounding errors of coordinates of size 3
     CHECK(std::abs(c.distance - height) < 1e-14);
   }
 }
 
-TEST_CASE("distance does not care about the unit of length nor about a far origin") {
+TEST_CASE("distances do not depend on the unit of length or on a distant origin") {
   Random random(5);
   for (int i = 0; i < 500; ++i) {
     const Corners a = random_triangle(random, i % 2), b = random_triangle(random, i % 2);
@@ -162,7 +165,7 @@ TEST_CASE("distance does not care about the unit of length nor about a far origi
       CHECK(std::abs(triangle_triangle(sa, sb).distance - scale * plain.distance) < 1e-14 * scale);
       check_certificate(sa, sb);
     }
-    // 1 km away; positions on a grid of 2^-30 so that moving them loses nothing
+    // 1 km away; positions on a grid of 2^-30 so that moving them is exact
     Corners ma = a, mb = b;
     const Vector3d far(1024, -2048, 512);
     for (Corners* t : {&ma, &mb})
@@ -174,10 +177,10 @@ TEST_CASE("distance does not care about the unit of length nor about a far origi
   }
 }
 
-TEST_CASE("micrometer gaps between meter triangles are exact to rounding") {
+TEST_CASE("micrometer gaps between meter triangles are exact up to rounding") {
   Random random(6);
   for (int i = 0; i < 1000; ++i) {
-    // b's corner hangs over a's face by the gap, all turned somewhere
+    // b's corner is above a's face by the gap, all in a random pose
     const double gap = std::pow(10, random.uniform(-9, -3));
     const Pose X = random_pose(random, 1);
     Corners a = triangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
@@ -189,7 +192,8 @@ TEST_CASE("micrometer gaps between meter triangles are exact to rounding") {
   }
 }
 
-TEST_CASE("nearest point of a triangle: inside it, and no corner is nearer along the way") {
+TEST_CASE(
+    "the nearest point of a triangle is inside it, and no corner is nearer along the direction") {
   Random random(7);
   for (int i = 0; i < 3000; ++i) {
     const Corners t = random_triangle(random, i % 2);
@@ -203,7 +207,7 @@ TEST_CASE("nearest point of a triangle: inside it, and no corner is nearer along
   }
 }
 
-TEST_CASE("nearest points of four triangles at once are those of one at a time, to the bit") {
+TEST_CASE("nearest points of four triangles at once equal those of one at a time, bit-exactly") {
   Random random(8);
   for (int i = 0; i < 3000; ++i) {
     const double size = std::pow(10, random.uniform(-3, 3));
@@ -217,7 +221,7 @@ TEST_CASE("nearest points of four triangles at once are those of one at a time, 
       }
     }
     Vector3d p = size * random_point(random, 2);
-    // on a corner, and beyond the range of squares
+    // at a corner, and beyond the range of squares
     if (i % 5 == 0) p = triangles[0][1];
     if (i % 100 == 1) p *= 1e200;
     NearestToPoint out;

@@ -9,7 +9,7 @@
 using namespace clench;
 using Points = std::vector<Eigen::Vector3d>;
 
-/// Twice the area vectors of the triangles, added, and the sum of their lengths.
+/// Twice the sum of the area vectors of the triangles, and the sum of their lengths.
 static std::pair<Eigen::Vector3d, double> areas(const Points& p,
                                                 const std::vector<Triangle>& triangles) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -28,7 +28,8 @@ static Eigen::Vector3d outline_area(const Points& p) {
   return sum;
 }
 
-TEST_CASE("stars in any plane are covered once: n - 2 triangles, all turning with the outline") {
+TEST_CASE(
+    "stars in any plane are covered once: n - 2 triangles with the orientation of the outline") {
   Random random(1);
   for (int k = 0; k < 200; ++k) {
     const int n = 4 + static_cast<int>(random.bits() % 40);
@@ -44,7 +45,7 @@ TEST_CASE("stars in any plane are covered once: n - 2 triangles, all turning wit
     const auto triangles = triangulate(p);
     CHECK(triangles.size() == p.size() - 2);
     const auto [sum, lengths] = areas(p, triangles);
-    // areas of size one, rounded a few dozen times
+    // areas of size one, with a few dozen rounding errors
     CHECK((sum - outline_area(p)).norm() < 1e-12);
     CHECK(lengths == doctest::Approx(sum.norm()).epsilon(1e-12));
   }
@@ -53,12 +54,12 @@ TEST_CASE("stars in any plane are covered once: n - 2 triangles, all turning wit
 TEST_CASE("a convex polygon is a fan from its first corner") {
   const Points square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   CHECK(triangulate(square) == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
-  // corners on a straight side, and a corner twice, change nothing about that
+  // corners on a straight side, and a repeated corner, do not change that
   CHECK(triangulate({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 1, 0}, {0, 1, 0}}).size() ==
         4);
 }
 
-TEST_CASE("an arrowhead is not cut through its notch") {
+TEST_CASE("an arrowhead is not divided through its notch") {
   const Points p = {{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {0.5, 1, 0}};
   const auto [sum, lengths] = areas(p, triangulate(p));
   CHECK(lengths == doctest::Approx(sum.norm()));
@@ -66,7 +67,7 @@ TEST_CASE("an arrowhead is not cut through its notch") {
         doctest::Approx(areas(p, {{0, 1, 2}, {0, 2, 3}}).second));
 }
 
-TEST_CASE("anything else gives n - 2 triangles and an end") {
+TEST_CASE("any other outline gives n - 2 triangles, in finite time") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(triangulate({}).empty());
   CHECK(triangulate({{0, 0, 0}, {1, 0, 0}}).empty());
@@ -80,7 +81,7 @@ TEST_CASE("anything else gives n - 2 triangles and an end") {
   }
 }
 
-TEST_CASE("a crooked face of very many corners is refused") {
+TEST_CASE("a crooked face with very many corners is rejected") {
   Random random(3);
   Points p;
   for (int i = 0; i <= max_concave_corners; ++i) p.push_back({random.normal(), random.normal(), 0});

@@ -1,4 +1,4 @@
-// A grasp put into a world again.
+// Applying a stored grasp to a world.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -36,7 +36,7 @@ Closed closed(const char* file) {
 
 }  // namespace
 
-TEST_CASE("a grasp applied where its object went is the grasp that was measured") {
+TEST_CASE("a grasp applied to the displaced object equals the evaluated grasp") {
   Random random(5);
   for (const char* file : {"worlds/barrett_mug.wld", "worlds/dlr_flask.wld"}) {
     Closed c = closed(file);
@@ -60,7 +60,7 @@ TEST_CASE("a grasp applied where its object went is the grasp that was measured"
   }
 }
 
-TEST_CASE("a grasp that does not fit a world is refused and moves nothing") {
+TEST_CASE("a grasp that does not fit a world is rejected and moves nothing") {
   Closed c = closed("worlds/barrett_mug.wld");
   const auto refuse = [&](const GraspSpec& grasp, const char* message) {
     World world = c.world;
@@ -85,7 +85,7 @@ TEST_CASE("a grasp that does not fit a world is refused and moves nothing") {
   refuse(grasp, "must lie in");
 }
 
-TEST_CASE("a grasp keeps the spaces that were asked for, and a copy begins with none") {
+TEST_CASE("a grasp caches its wrench spaces, and a copy starts with an empty cache") {
   const Closed c = closed("worlds/dlr_flask.wld");
   const WrenchSpacePtr first = space_of(c.grasp);
   CHECK(space_of(c.grasp) == first);

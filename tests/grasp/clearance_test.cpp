@@ -27,7 +27,7 @@ HandAndCube hand_and_cube() {
 
 }  // namespace
 
-TEST_CASE("clearance is the distance to the nearest thing that is not grasped") {
+TEST_CASE("clearance is the distance to the nearest body that is not grasped") {
   HandAndCube p = hand_and_cube();
   CHECK(clearance(p.world, p.hand, p.object) == std::numeric_limits<double>::infinity());
   const auto wall = p.world.add_body(body_spec("wall", box(1, 1, 1)), BodyKind::obstacle,
@@ -35,7 +35,7 @@ TEST_CASE("clearance is the distance to the nearest thing that is not grasped") 
   const double alone = clearance(p.world, p.hand, p.object);
   const auto parts = p.world.bodies_of(p.hand);
   CHECK(alone == distance(p.world, parts, std::span(&wall, 1)).distance);
-  // another object counts, nearer or not
+  // another object counts, at any distance
   const auto other = p.world.add_body(body_spec("other", box(1, 1, 1)), BodyKind::object,
                                       Pose::translation({0, 0, -2}));
   CHECK(clearance(p.world, p.hand, p.object) == doctest::Approx(alone - 1));
@@ -47,7 +47,7 @@ TEST_CASE("clearance is the distance to the nearest thing that is not grasped") 
 TEST_CASE("penetration is the depth of the deepest point of the hand in the object") {
   HandAndCube p = hand_and_cube();
   CHECK(penetration(p.world, p.hand, p.object) == 0);
-  // from below into the hand's base, whose corners lie within the cube's outline
+  // from below into the hand's base, with its corners inside the cube's outline
   const Body& base = p.world.body(p.world.robot(p.hand).base);
   const double low = base.shape->bounds().low.y();
   for (const double depth : {0.001, 0.004, 0.009}) {
@@ -56,11 +56,11 @@ TEST_CASE("penetration is the depth of the deepest point of the hand in the obje
   }
 }
 
-TEST_CASE("penetration sees overlaps without a corner inside, and pairs that are switched off") {
+TEST_CASE("penetration detects overlaps without inner corners, and pairs that are switched off") {
   HandAndCube p = hand_and_cube();
   const Id<Body> base = p.world.robot(p.hand).base;
   const Bounds box_B = p.world.body(base).shape->bounds();
-  // a plate right through the hand's base
+  // a plate across the hand's base
   const double thickness = box_B.size().minCoeff() / 4;
   const auto plate = p.world.add_body(body_spec("plate", box(10, 10, thickness)), BodyKind::object,
                                       p.world.pose(base) * Pose::translation(box_B.center()));

@@ -10,7 +10,7 @@ using namespace clench;
 using Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;
 using test::held, test::Held, test::wrench;
 
-// of a solver that is right to 1e-9, in forces of some newtons
+// for a solver that is accurate to 1e-9, with forces of some newtons
 static constexpr double close_to = 1e-7;
 
 static ForceResult hold(Held& h, const ForceOptions& options) {
@@ -23,7 +23,7 @@ static double sum_of_normals(const ForceResult& r) {
   return sum;
 }
 
-// balance, cones and caps, from the forces alone
+// checks balance, cones and caps of the forces
 static void check_forces(const Held& h, const ForceOptions& options, const ForceResult& r) {
   REQUIRE(r.status == ForceStatus::optimal);
   REQUIRE(r.forces.size() == h.grasp.points.size());
@@ -42,7 +42,7 @@ static void check_forces(const Held& h, const ForceOptions& options, const Force
     CHECK((frame.leftCols<2>().transpose() * f.force_W - f.tangential).norm() < 1e-12 * largest);
     const double twist = c.torsion_radius > 0 ? f.torsion / c.torsion_radius : 0;
     const double across = std::hypot(f.tangential.norm(), twist);
-    CHECK(across <= c.mu * f.normal + 1e-9 * largest);  // what the solver promises
+    CHECK(across <= c.mu * f.normal + 1e-9 * largest);  // tolerance guaranteed by the solver
     CHECK(std::abs(f.margin - (c.mu > 0 ? (c.mu * f.normal - across) / std::hypot(1, c.mu)
                                         : f.normal)) < 1e-12 * largest);
     if (options.max_force)
@@ -52,8 +52,8 @@ static void check_forces(const Held& h, const ForceOptions& options, const Force
   CHECK((sum - r.unbalanced).norm() <= 1e-12 * largest);
 }
 
-// a proof holds against all forces that it speaks of: their work along the twist cannot make up for
-// the load's
+// the certificate is a proof for all admissible forces: their power along the twist is below that
+// of the load
 static void check_certificate(const Held& h, const ForceOptions& options, const ForceResult& r) {
   REQUIRE(r.status == ForceStatus::infeasible);
   REQUIRE(r.certificate.has_value());
@@ -68,7 +68,7 @@ static void check_certificate(const Held& h, const ForceOptions& options, const 
     const Vector3d v = c.twist.head<3>() + c.twist.tail<3>().cross(arm);
     const Vector3d n = X_WO.rotation * point.n_O;
     const double along = v.dot(n), spin = c.twist.tail<3>().dot(n) * point.torsion_radius;
-    // the most that a unit of normal force takes out: against the slip as hard as friction allows
+    // maximal power that a unit of normal force resists: full friction against the slip
     const double most = point.mu * std::hypot((v - along * n).norm(), spin) - along;
     const double cap = options.max_force ? options.max_force.of(static_cast<int>(i)) : 1e7;
     if (most > 0) resisted += most * cap;
@@ -76,7 +76,7 @@ static void check_certificate(const Held& h, const ForceOptions& options, const 
   CHECK(resisted < c.power);
 }
 
-TEST_CASE("two fingers carry a weight by friction alone") {
+TEST_CASE("two fingers carry a weight by friction only") {
   for (const double mu : {0.1, 0.5, 2.0}) {
     Held h = held(test::pinch(mu));
     const ForceOptions options{.load = wrench(0, 0, -3, 0, 0, 0)};
@@ -90,7 +90,7 @@ TEST_CASE("two fingers carry a weight by friction alone") {
   }
 }
 
-TEST_CASE("three fingers around an upright can share its weight") {
+TEST_CASE("three fingers around an upright can share its weight equally") {
   std::vector<PointContact> points;
   for (int i = 0; i < 3; ++i) {
     const double a = i * 2 * std::numbers::pi / 3;
@@ -105,7 +105,7 @@ TEST_CASE("three fingers around an upright can share its weight") {
   for (const ContactForce& f : r.forces) CHECK(std::abs(f.normal - 5) < close_to);
 }
 
-TEST_CASE("a ball between plates without friction takes only what runs through them") {
+TEST_CASE("a ball between frictionless plates carries only loads along their common normal") {
   Held h = held(test::pinch(0));
   ForceOptions options{.load = wrench(2, 0, 0, 0, 0, 0)};
   const ForceResult r = hold(h, options);
@@ -115,12 +115,12 @@ TEST_CASE("a ball between plates without friction takes only what runs through t
   options.load = wrench(0, 1, 0, 0, 0, 0);
   const ForceResult slips = hold(h, options);
   check_certificate(h, options, slips);
-  // it moves with the load, and neither plate is in the way
+  // it moves with the load, unobstructed by the plates
   CHECK((slips.certificate->twist.head<3>() - Vector3d::UnitY()).norm() < 1e-6);
 }
 
-TEST_CASE("whether a wedge slips out turns at the friction angle") {
-  const double slope = 0.3;  // of both faces against the line between the fingers
+TEST_CASE("a wedge slips out at the friction angle") {
+  const double slope = 0.3;  // of both faces, to the line between the fingers
   const auto wedge = [&](double mu) {
     return held({test::contact_at({0.05, 0, 0}, {-std::cos(slope), 0, std::sin(slope)}, mu),
                  test::contact_at({-0.05, 0, 0}, {std::cos(slope), 0, std::sin(slope)}, mu)});
@@ -133,7 +133,7 @@ TEST_CASE("whether a wedge slips out turns at the friction angle") {
   CHECK(slips.status == ForceStatus::infeasible);
 }
 
-TEST_CASE("caps bound what is carried, and the proof names the finger that gives way") {
+TEST_CASE("caps bound the load, and the certificate names the finger that yields") {
   Held h = held(test::pinch(0.5));
   ForceOptions options{.load = wrench(0, 0, -3.99, 0, 0, 0), .max_force = 4};
   check_forces(h, options, hold(h, options));
@@ -148,9 +148,9 @@ TEST_CASE("caps bound what is carried, and the proof names the finger that gives
   CHECK(std::abs(r.certificate->sliding_rates[0] - 1) < 1e-6);
 }
 
-TEST_CASE("each contact may have a cap of its own") {
+TEST_CASE("each contact may have its own cap") {
   Held h = held(test::pinch(0.5));
-  // two fingers press alike, so the weaker one bounds both
+  // both fingers press with equal force, so the weaker one bounds both
   const auto most = [&](std::vector<double> caps) {
     const ForceOptions options{.load = wrench(0, 0, -1, 0, 0, 0), .max_force = std::move(caps)};
     return max_load(h.world, h.grasp, options);
@@ -167,7 +167,7 @@ TEST_CASE("each contact may have a cap of its own") {
   CHECK_THROWS_WITH_AS(most({1, -2}), "contact forces: max_force must be > 0 [N], got -2", Error);
 }
 
-TEST_CASE("the length of a direction counts for nothing") {
+TEST_CASE("the length of a load direction does not matter") {
   Held h = held(test::pinch(0.5));
   for (const double size : {1e-200, 1e-12, 1e-9, 1e-6, 1.0, 1e6, 1e12, 1e200}) {
     CAPTURE(size);
@@ -176,7 +176,7 @@ TEST_CASE("the length of a direction counts for nothing") {
     REQUIRE(r.status == ForceStatus::optimal);
     CHECK(r.load_factor * size == doctest::Approx(4).epsilon(1e-9));
     if (size < 1e-12 || size > 1e12) continue;
-    // the proof is as tight for tiny loads and caps as for others
+    // the certificate is as tight for tiny loads and caps as for others
     const ForceOptions small{.load = wrench(0, 0, -5 * size, 0, 0, 0), .max_force = 4 * size};
     const ForceResult falls = contact_forces(h.world, h.grasp, small);
     REQUIRE(falls.status == ForceStatus::infeasible);
@@ -186,7 +186,7 @@ TEST_CASE("the length of a direction counts for nothing") {
   }
 }
 
-TEST_CASE("a torque about the line of two fingers needs soft ones") {
+TEST_CASE("a torque about the line of two fingers requires soft fingers") {
   const ForceOptions options{.load = wrench(0, 0, 0, 0.03, 0, 0)};
   Held hard = held(test::pinch(0.5));
   const ForceResult turns = hold(hard, options);
@@ -199,7 +199,7 @@ TEST_CASE("a torque about the line of two fingers needs soft ones") {
   CHECK(std::abs(sum_of_normals(r) - 2 * 0.015 / (0.5 * 0.004)) < 1e-6);
 }
 
-TEST_CASE("the largest load is where caps and friction end") {
+TEST_CASE("the largest load is bounded by caps and friction") {
   Held h = held(test::pinch(0.5));
   ForceOptions options{.load = wrench(0, 0, -2, 0, 0, 0), .max_force = 4};
   const ForceResult r = max_load(h.world, h.grasp, options);
@@ -208,17 +208,17 @@ TEST_CASE("the largest load is where caps and friction end") {
   CHECK(r.residual < 1e-8);
   REQUIRE(r.certificate.has_value());
   CHECK(std::abs(r.certificate->power - r.certificate->capacity) < 1e-6);
-  // no cap, no end
+  // unbounded without a cap
   options.max_force = {};
   CHECK(max_load(h.world, h.grasp, options).status == ForceStatus::unbounded);
-  // what is not held at all
+  // a load that no force resists
   options.load = wrench(0, 0, 0, 1, 0, 0);
   const ForceResult none = max_load(h.world, h.grasp, options);
   REQUIRE(none.status == ForceStatus::optimal);
   CHECK(none.load_factor < close_to);
 }
 
-TEST_CASE("the interior is as far from edges and caps as can be") {
+TEST_CASE("the margin objective maximizes the distance from edges and caps") {
   Held h = held(test::pinch(0.5));
   ForceOptions options{
       .load = wrench(0, 0, -2, 0, 0, 0), .objective = ForceObjective::max_margin, .max_force = 10};
@@ -240,7 +240,7 @@ TEST_CASE("the interior is as far from edges and caps as can be") {
   CHECK(std::abs(sum_of_normals(fixed) - 12) < close_to);
 }
 
-TEST_CASE("each objective is best at its own") {
+TEST_CASE("the forces of each objective minimize that objective") {
   Held h = held(test::around_ball(7, 0.6, 3));
   const Vector6d load = wrench(1, -2, 0.5, 0.01, 0.02, -0.03);
   const auto measure = [](const ForceResult& r, ForceObjective by) {
@@ -271,7 +271,7 @@ static double by_pyramids(const Held& h, const Vector6d& load, int edges, double
                           double cap) {
   ClpSimplex clp;
   clp.setLogLevel(0);
-  clp.scaling(0);  // its scaling goes wrong where rounding leaves 1e-18 for 0
+  clp.scaling(0);  // its scaling fails for 1e-18, which rounding leaves in place of 0
   const int contacts = static_cast<int>(h.grasp.points.size());
   clp.resize(0, contacts * edges);
   MatrixXd all(6, contacts * edges);
@@ -301,8 +301,7 @@ static double by_pyramids(const Held& h, const Vector6d& load, int edges, double
   return clp.isProvenOptimal() ? clp.objectiveValue() : -1;
 }
 
-TEST_CASE(
-    "the round cone lies between pyramids inside and around it, as the simplex method sees them") {
+TEST_CASE("the round cone is bracketed by inner and outer pyramids, solved by the simplex method") {
   Random random(5);
   int decided = 0;
   for (int i = 0; i < 40; ++i) {
@@ -331,7 +330,7 @@ TEST_CASE(
   CHECK(decided > 15);
 }
 
-TEST_CASE("the largest load in the sum of normal forces is the wrench space's ray") {
+TEST_CASE("the largest load for a sum of normal forces equals the ray of the wrench space") {
   Held h = held(test::around_ball(6, 0.7, 8));
   const int edges = 64;
   MatrixXd wrenches(6, 6 * edges);
@@ -367,12 +366,12 @@ TEST_CASE("the largest load in the sum of normal forces is the wrench space's ra
     REQUIRE(clp.isProvenOptimal());
     const double inside = -clp.objectiveValue();
     CHECK(r.load_factor >= inside * (1 - 1e-6));
-    // a pyramid of 64 edges misses 1 - cos(pi / 64) of a cone's width
+    // a pyramid of 64 edges is narrower than the cone by 1 - cos(pi / 64)
     CHECK(r.load_factor <= inside * 1.003);
   }
 }
 
-TEST_CASE("neither place nor unit, order or doubled contacts change what a load costs") {
+TEST_CASE("position, units, order and duplicated contacts do not change the forces for a load") {
   Random random(21);
   for (int i = 0; i < 20; ++i) {
     CAPTURE(i);
@@ -408,7 +407,7 @@ TEST_CASE("neither place nor unit, order or doubled contacts change what a load 
   }
 }
 
-TEST_CASE("sixty contacts are no trouble, nor are contacts in a row or none") {
+TEST_CASE("sixty contacts, collinear contacts and no contacts are solved") {
   const Vector6d load = wrench(0, 0, -5, 0.01, 0, 0);
   for (const double radius : {0.0, 0.002}) {
     Held many = held(test::around_ball(60, 0.5, 4, radius));
@@ -435,7 +434,7 @@ TEST_CASE("sixty contacts are no trouble, nor are contacts in a row or none") {
   CHECK(falls.certificate->power > 0);
 }
 
-TEST_CASE("without balance, what is left is the least") {
+TEST_CASE("without balance, the unbalanced rest is minimal") {
   Held h = held(test::pinch(0));
   const ForceOptions options{.load = wrench(1, 2, 0, 0, 0.03, 0), .nearest = true};
   const ForceResult r = hold(h, options);
@@ -444,7 +443,7 @@ TEST_CASE("without balance, what is left is the least") {
   CHECK(std::abs(r.residual - std::hypot(2, 0.3)) < close_to);
 }
 
-TEST_CASE("forces that make no sense are refused by name") {
+TEST_CASE("invalid arguments of forces are rejected by name") {
   Held h = held(test::pinch(0.5));
   const auto refuse = [&](const ForceOptions& options, const char* message) {
     CHECK_THROWS_WITH_AS(hold(h, options), message, Error);

@@ -42,7 +42,7 @@ TEST_CASE("a right triangle deviates by its angles: 30 + 15 + 15 of 240 degrees"
   CHECK(polygon.area == doctest::Approx(0.5).epsilon(1e-12));
 }
 
-TEST_CASE("points inside or on the edges are no corners") {
+TEST_CASE("points inside or on the edges are not corners") {
   std::vector<Vector3d> points = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
   points.insert(points.end(), {{1, 0, 0}, {1, 1, 0}, {0.3, 1.2, 0}, {2, 2, 0}, {0, 0, 0}});
   const ContactPolygon polygon = contact_polygon(points);
@@ -51,7 +51,7 @@ TEST_CASE("points inside or on the edges are no corners") {
   CHECK(polygon.irregularity < 1e-7);
 }
 
-TEST_CASE("one point, two, and points in a line span nothing") {
+TEST_CASE("one point, two points, and collinear points have no area") {
   for (const auto& points : {std::vector<Vector3d>{{1, 2, 3}},
                              {{1, 2, 3}, {1, 2, 3}},
                              {{0, 0, 0}, {1, 1, 1}},
@@ -64,7 +64,7 @@ TEST_CASE("one point, two, and points in a line span nothing") {
 }
 
 TEST_CASE(
-    "moved, turned and shuffled, the polygon is the same, and its area goes by the square of "
+    "a moved, turned and shuffled polygon is the same, and its area scales with the square of "
     "size") {
   Random random(3);
   for (int round = 0; round < 50; ++round) {

@@ -1,4 +1,4 @@
-// Loads that jaws hold with motors which pull in one direction, weakly, or not at all.
+// Loads that jaws hold with motors that pull in one direction, weakly, or not at all.
 #include "clench/base/random.h"
 #include "clench/grasp/force/equilibrium.h"
 #include "clench/model/effort_range.h"
@@ -20,7 +20,7 @@ Jaws driven(const ActuatorSpec& law, double mu) {
   return jaws(DofKind::rigid, mu, 0, false, 0, both);
 }
 
-// the largest weight that the motors hold by friction; infinite: any
+// the largest weight that the motors hold by friction; infinite if unbounded
 double largest_weight(const Jaws& j, const JointDemand& demand = {}) {
   const ForceResult r =
       max_load(j.world, j.grasp, {.load = wrench(0, 0, -1, 0, 0, 0), .joints = demand});
@@ -43,7 +43,7 @@ ActuatorSpec servo(double kp) {
 
 }  // namespace
 
-TEST_CASE("jaws that no motor closes hold nothing") {
+TEST_CASE("jaws without a closing motor hold nothing") {
   ActuatorSpec no_gain;
   no_gain.kind = "general", no_gain.gain = 0;
   for (const ActuatorSpec& law :
@@ -88,7 +88,7 @@ TEST_CASE("random jaws hold twice the friction force of their weaker motor") {
       const double f0 = random.uniform(-10, 0);
       law.force_range = {{f0, random.uniform(f0, 10)}};
     }
-    // the law at the ends of the control; a servo without a range takes any
+    // the control law at the ends of the range; a servo without a range is unbounded
     double least = 1e300, press = -1e300;
     const std::array<double, 2> controls = law.control_range.value_or(std::array{-1e9, 1e9});
     for (const double control : controls) {
@@ -118,13 +118,13 @@ TEST_CASE("an actuator that pulls one jaw inwards and the other outwards holds n
     const Jaws j = jaws(DofKind::rigid, 0.5, 0, false, 0, {motor});
     CHECK(can_close(j.world, j.grasp.hand, 0));
     CHECK(can_close(j.world, j.grasp.hand, 1));
-    // both press alike, or not at all
+    // both press with equal force, or not at all
     CHECK(largest_weight(j) == doctest::Approx(second == 1 ? 2 * 0.5 * 20 : 0));
     JointDemand any;
     any.unlimited = true;
     if (second < 1) CHECK(largest_weight(j, any) == doctest::Approx(0));
   }
-  // a second motor makes up for the difference, as far as it goes
+  // a second motor compensates the difference up to its range
   motor.pulls = {{"jaw0", 1}, {"jaw1", -1}};
   ActuatorSpec own;
   own.kind = "motor", own.joint = "jaw1", own.dof = 1, own.control_range = {{0, 30}};
@@ -132,7 +132,9 @@ TEST_CASE("an actuator that pulls one jaw inwards and the other outwards holds n
         doctest::Approx(2 * 0.5 * 15));
 }
 
-TEST_CASE("a limit of a joint bounds what its motor presses with, each direction separately") {
+TEST_CASE(
+    "an effort range of a joint bounds the pressing force of its motor, separately for each "
+    "direction") {
   ActuatorSpec law = motor(1, -20, 20);
   for (const auto& [low, high] :
        std::array<std::array<double, 2>, 3>{{{-20, 0}, {-20, 0.001}, {0, 7}}}) {
@@ -147,7 +149,7 @@ TEST_CASE("a limit of a joint bounds what its motor presses with, each direction
   }
 }
 
-TEST_CASE("a largest effort of the world bounds motors without a limit, and no others") {
+TEST_CASE("a maximal effort of the world bounds only motors without a limit") {
   Jaws j = jaws(DofKind::rigid, 0.5, 0);
   CHECK(std::isinf(largest_weight(j)));
   CHECK(unlimited_dofs(j.world, j.grasp.hand) == std::vector{0, 1});

@@ -15,12 +15,12 @@ Equilibrium ask(const Jaws& j, const EquilibriumOptions& options) {
 
 }  // namespace
 
-TEST_CASE("motors hold what friction passes on, to their limit") {
+TEST_CASE("motors hold the forces that friction transmits, up to their limits") {
   const Jaws j = jaws(DofKind::rigid, 0.5, 10);
   const Equilibrium held = ask(j, {.load = wrench(0, 0, -9.9, 0, 0, 0)});
   REQUIRE(held.status == EquilibriumStatus::stable);
   CHECK(held.result.residual < 1e-8);
-  // each jaw presses 9.9, which its motor gives
+  // each jaw presses with 9.9, which is its motor's effort
   CHECK((held.result.efforts - Vector2d(9.9, 9.9)).norm() < 1e-6);
   const Equilibrium falls = ask(j, {.load = wrench(0, 0, -10.1, 0, 0, 0)});
   REQUIRE(falls.status == EquilibriumStatus::unstable);
@@ -34,7 +34,7 @@ TEST_CASE("motors hold what friction passes on, to their limit") {
 }
 
 TEST_CASE("limits and torques can be given") {
-  const Jaws j = jaws(DofKind::rigid, 0.5, 0);  // motors of no known limit
+  const Jaws j = jaws(DofKind::rigid, 0.5, 0);  // motors without known limits
   const Vector6d load = wrench(0, 0, -5, 0, 0, 0);
   CHECK(ask(j, {.load = load}).status == EquilibriumStatus::stable);
   JointDemand weak;
@@ -49,20 +49,20 @@ TEST_CASE("limits and torques can be given") {
   const Equilibrium pressed = ask(j, {.load = load, .joints = given});
   REQUIRE(pressed.status == EquilibriumStatus::stable);
   CHECK(std::abs(pressed.result.forces[0].normal - 6) < 1e-7);
-  // jaws that press differently push the block along
+  // jaws with unequal forces push the block
   given.efforts = Vector2d(6, 7);
   const Equilibrium pushed = ask(j, {.load = load, .joints = given});
   REQUIRE(pushed.status == EquilibriumStatus::unstable);
   CHECK((pushed.result.unbalanced - wrench(1, 0, 0, 0, 0, 0)).norm() < 1e-6);
-  // a jaw that pulls has nothing to pull at
+  // a pulling jaw moves away from the block
   given.efforts = Vector2d(-1, 6);
   CHECK(ask(j, {.load = load, .joints = given}).status == EquilibriumStatus::moving);
-  // and a cap of the fingers counts beside the motors
+  // a cap of the contact forces applies in addition to the motors
   CHECK(ask(j, {.load = load, .joints = {}, .max_force = 4.0}).status ==
         EquilibriumStatus::unstable);
 }
 
-TEST_CASE("a palm carries without any motor") {
+TEST_CASE("a palm carries a load without any motor") {
   const Jaws j = jaws(DofKind::rigid, 0.5, 1, true);
   const Equilibrium held = ask(j, {.load = wrench(0, 0, -50, 0, 0, 0)});
   REQUIRE(held.status == EquilibriumStatus::stable);
@@ -70,7 +70,7 @@ TEST_CASE("a palm carries without any motor") {
   CHECK(held.result.efforts.norm() < 1e-6);
 }
 
-TEST_CASE("springs hold by themselves what they press, and no more") {
+TEST_CASE("springs alone hold loads up to their own force") {
   const Jaws j = jaws(DofKind::compliant, 0.5, 100, false, 100);  // 3 N at q = 0.07
   JointDemand springs;
   springs.springs_only = true;
@@ -86,7 +86,7 @@ TEST_CASE("springs hold by themselves what they press, and no more") {
   CHECK((helped.result.efforts - Vector2d(2, 2)).norm() < 1e-6);
 }
 
-TEST_CASE("forces of which the sum of torques is given") {
+TEST_CASE("forces for a given sum of torques") {
   const Jaws j = jaws(DofKind::rigid, 0.5, 0);
   ForceOptions options{.load = wrench(0, 0, -2, 0, 0, 0),
                        .objective = ForceObjective::max_margin_sum};
@@ -99,7 +99,7 @@ TEST_CASE("forces of which the sum of torques is given") {
   CHECK(std::abs(r.objective - 2 * (0.5 * 6 - 1) / std::sqrt(1.25)) < 1e-6);
 }
 
-TEST_CASE("torques that are no numbers are refused") {
+TEST_CASE("invalid torques are rejected") {
   const Jaws j = jaws(DofKind::rigid, 0.5, 1);
   JointDemand demand;
   demand.limits = Vector2d(-1, 1);

@@ -80,7 +80,7 @@ TEST_CASE("the volume of a cross polytope and a cube, in two to six dimensions")
   }
 }
 
-TEST_CASE("cyclic polytopes have as many facets as any, and as the closed formula says") {
+TEST_CASE("cyclic polytopes have the maximal number of facets of the closed formula") {
   // points on the curve (cos t, sin t, cos 2t, sin 2t, ...)   source  Gale (1963)
   const auto cyclic = [](int d, int count) {
     Eigen::MatrixXd points(d, count);
@@ -121,9 +121,9 @@ TEST_CASE("random sets in two to six dimensions have the ball, volume and facets
     }
 }
 
-TEST_CASE("a round set is bracketed as closely as asked, and no closer than it takes") {
+TEST_CASE("a round set is bracketed to the requested tolerance, with no more points than needed") {
   for (int d = 2; d <= 6; ++d) {
-    // the nearest point of the sphere is one, and growth around it is quadratic
+    // the nearest point of the sphere is unique, and its distance grows quadratically around it
     const RoundSet set(0.4 * Eigen::VectorXd::Ones(d).normalized());
     int last = 0;
     for (const double tolerance : {1e-1, 1e-2, 1e-3}) {
@@ -138,14 +138,14 @@ TEST_CASE("a round set is bracketed as closely as asked, and no closer than it t
   }
 }
 
-TEST_CASE("a round set that touches or leaves out the origin has no ball") {
+TEST_CASE("a round set that touches or excludes the origin has no ball") {
   for (const double off : {1.0, 1.0 + 1e-9, 1.5, 30.0})
     CHECK(largest_ball(RoundSet(off * Eigen::VectorXd::Unit(6, 2))).end == BallEnd::outside);
   CHECK(largest_ball(RoundSet(0.9 * Eigen::VectorXd::Unit(6, 2)), {.tolerance = 1e-2}).end ==
         BallEnd::inside);
 }
 
-TEST_CASE("whether the ball reaches a radius is known early, and known right") {
+TEST_CASE("the test whether the ball reaches a radius stops early, with the correct answer") {
   Random random(2);
   int early = 0;
   for (int trial = 0; trial < 40; ++trial) {
@@ -164,8 +164,8 @@ TEST_CASE("whether the ball reaches a radius is known early, and known right") {
   CHECK(early > 50);
 }
 
-TEST_CASE("points that run out leave a bracket that holds") {
-  const RoundSet set(Eigen::VectorXd::Zero(6));  // all directions alike: the hardest
+TEST_CASE("a limit on the number of points leaves a valid bracket") {
+  const RoundSet set(Eigen::VectorXd::Zero(6));  // all directions are equivalent: the hardest case
   const Ball ball = largest_ball(set, {.tolerance = 1e-9, .max_points = 40});
   CHECK(ball.end == BallEnd::stopped);
   CHECK(ball.points <= 40);
@@ -173,7 +173,7 @@ TEST_CASE("points that run out leave a bracket that holds") {
   CHECK(ball.upper >= 1 - 1e-13);
 }
 
-TEST_CASE("flat sets are told, with the direction across") {
+TEST_CASE("flat sets are reported, with the direction across") {
   Random random(3);
   for (int trial = 0; trial < 20; ++trial) {
     Eigen::MatrixXd points = random_points(random, 6, 30);
@@ -187,13 +187,13 @@ TEST_CASE("flat sets are told, with the direction across") {
   }
 }
 
-TEST_CASE("a hull of too many facets is given up, and says so") {
+TEST_CASE("a hull with too many facets is abandoned, and reported") {
   Random random(4);
   const WrenchSupport reach = reach_of(random_points(random, 6, 60));
   CHECK(all_facets(reach, {.max_facets = 500}).end == FacetsEnd::too_many);
 }
 
-TEST_CASE("hard sets of every kind: ball and volume are those of the hull by qhull") {
+TEST_CASE("hard sets of every kind: ball and volume equal those of the hull by qhull") {
   int inside = 0, volumes = 0;
   for (int kind = 0; kind < wrench_set_kinds; ++kind)
     for (uint64_t number = 0; number < 25; ++number) {
@@ -205,7 +205,7 @@ TEST_CASE("hard sets of every kind: ball and volume are those of the hull by qhu
       CHECK(ball.end != BallEnd::stopped);
       const Hull hull = affine_rank(all) == 6 ? wrench_hull(all) : Hull();
       const double offset = hull.dimension == 6 ? hull.offsets.minCoeff() : 0;
-      // the shifts of the last resorts, of ours and of wrench_hull's, are some 1e-10
+      // the perturbations used as a last resort, here and in wrench_hull, are about 1e-10
       if (ball.end == BallEnd::inside) {
         CHECK(std::abs(ball.upper - std::max(0.0, offset)) < 1e-9);
         CHECK(ball.upper - ball.lower < 1e-9);

@@ -12,7 +12,7 @@ using namespace clench;
 
 namespace {
 
-// a simplex about the origin, then points one after the other
+// a simplex around the origin, then points one after the other
 template <int D>
 FacetComplex<D> grown(const Eigen::MatrixXd& points) {
   const auto support = [&](const double* direction, double* point) {
@@ -45,7 +45,7 @@ void check_surface(FacetComplex<D>& complex) {
     const auto& facet = complex.facet(index);
     if (!facet.alive()) continue;
     ++alive;
-    // the plane holds its corners, and all other points lie below
+    // the plane contains its corners, and all other points are below it
     for (int p = 0; p < complex.point_count(); ++p) {
       const bool own = std::count(facet.corner, facet.corner + D, p) > 0;
       const double height = dot(facet.plane, complex.point(p));
@@ -53,14 +53,14 @@ void check_surface(FacetComplex<D>& complex) {
     }
     CHECK(dot<D>(facet.plane.x, facet.plane.x) == doctest::Approx(1).epsilon(1e-14));
     for (int side = 0; side < D; ++side) {
-      // neighbors know each other and share all corners but one
+      // neighbors refer to each other and share all corners but one
       REQUIRE(complex.facet(facet.neighbor[side]).alive());
       const auto& other = complex.facet(facet.neighbor[side]);
       CHECK(std::count(other.neighbor, other.neighbor + D, index) == 1);
       for (int k = 0; k < D; ++k)
         CHECK(std::count(other.corner, other.corner + D, facet.corner[k]) == (k != side));
     }
-    // all corners turn the same way, but for those that are marked: seen from the origin
+    // all facets have the same orientation as seen from the origin, except for marked ones
     Eigen::MatrixXd edges(D, D);
     for (int k = 0; k < D; ++k)
       edges.col(k) = Eigen::Map<const Eigen::VectorXd>(complex.point(facet.corner[k]).x, D);
@@ -74,7 +74,8 @@ void check_surface(FacetComplex<D>& complex) {
 }  // namespace
 
 TEST_CASE(
-    "after every growth facets are planes through their corners, and neighbors of neighbors") {
+    "after every growth facets are planes through their corners, and neighbors of their "
+    "neighbors") {
   Random random(1);
   Eigen::MatrixXd points(6, 40);
   for (double& x : points.reshaped()) x = random.normal() / 4;
@@ -94,7 +95,7 @@ TEST_CASE(
   check_surface(two);
 }
 
-TEST_CASE("memory that is used again starts from nothing") {
+TEST_CASE("reused memory has no effect on results") {
   Random random(2);
   Eigen::MatrixXd points(4, 30);
   for (double& x : points.reshaped()) x = random.normal() / 4;

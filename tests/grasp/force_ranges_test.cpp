@@ -1,6 +1,6 @@
-// Every number that contact forces are asked with, over 25 orders of magnitude: what is called
-// optimal, infeasible or stable is, by plain sums and closed formulas, and between 1e-6 and 1e6
-// there is an answer.
+// All parameters of contact forces, over 25 orders of magnitude: results called optimal, infeasible
+// or stable are checked by plain sums and closed formulas, and between 1e-6 and 1e6 every query
+// must have an answer.
 #include "clench/base/error.h"
 #include "clench/grasp/force/equilibrium.h"
 #include "clench/grasp/force/resistance.h"
@@ -13,8 +13,7 @@ using test::held, test::Held, test::jaws, test::Jaws, test::wrench;
 
 namespace {
 
-// what is promised is 1e-9 of the largest numbers, here added up over some contacts and in other
-// units
+// the guarantee is 1e-9 of the largest numbers, here summed over some contacts and in other units
 constexpr double relative_error = 1e-7;
 
 constexpr ForceObjective all_objectives[] = {ForceObjective::min_sum, ForceObjective::min_norm,
@@ -23,7 +22,7 @@ constexpr ForceObjective all_objectives[] = {ForceObjective::min_sum, ForceObjec
 
 const Vector6d some_load = wrench(0.3, -0.5, -0.8, 0.01, 0.02, -0.03);
 
-// from 1e-12 to 1e13; must: is an answer due?
+// from 1e-12 to 1e13; must: an answer is required
 template <class Visit>
 void each_power(Visit visit) {
   for (int e = -12; e <= 13; ++e) {
@@ -34,8 +33,8 @@ void each_power(Visit visit) {
 
 using Sum = Eigen::Matrix<long double, 3, 1>;
 
-// Balance, cones and caps by sums in more digits than the solver has. What is left counts against
-// the load and, as a torque, against the load at the longest arm.
+// Balance, cones and caps by sums with higher precision than the solver's. The unbalanced rest is
+// compared with the load and, as a torque, with the load at the longest arm.
 void check_sums(const Held& h, const ForceOptions& options, const ForceResult& r) {
   Sum force = options.load.head<3>().cast<long double>(),
       torque = options.load.tail<3>().cast<long double>();
@@ -58,12 +57,12 @@ void check_sums(const Held& h, const ForceOptions& options, const ForceResult& r
     const PointContact& c = h.grasp.points[i];
     const ContactForce& f = r.forces[i];
     const double twist = c.torsion_radius > 0 ? f.torsion / c.torsion_radius : 0;
-    // forces that torsion makes tiny against the load have its rounding
+    // forces that are tiny compared with the load have its rounding error
     const double off = relative_error * largest + 1e-15 * of_load / arm;
     CHECK(std::hypot(f.tangential.norm(), twist) <= c.mu * f.normal + std::max(1.0, c.mu) * off);
     CHECK(f.normal >= -off);
   }
-  // and what rounding does to the forces in turning them
+  // and the rounding of the forces by rotation
   const double allowed =
       (of_load > 0 ? 3e-7 * of_load : 1e-9 * largest * arm) + 1e-15 * largest * arm;
   CHECK(static_cast<double>(force.norm()) * arm <= allowed);
@@ -76,7 +75,8 @@ ForceResult hold(const Held& h, const ForceOptions& options) {
   return contact_forces(h.world, h.grasp, options);
 }
 
-// an answer where it is due, checked by sums; expected: the best, and whether there is any
+// an answer if required, checked by sums; best: expected objective; feasible: whether a solution
+// exists
 void check_hold(const Held& h, const ForceOptions& options, bool must, bool feasible,
                 std::optional<double> best = {}) {
   const ForceResult r = hold(h, options);
@@ -84,7 +84,7 @@ void check_hold(const Held& h, const ForceOptions& options, bool must, bool feas
   if (r.status == ForceStatus::optimal) {
     CHECK(feasible);
     check_sums(h, options, r);
-    // forces of which friction leaves next to nothing are as good as the load that they hold
+    // the objective of forces that almost equal the friction limit has the accuracy of the load
     if (best)
       CHECK(std::abs(r.objective - *best) <= relative_error * *best + 1e-11 * options.load.norm());
   }
@@ -94,7 +94,7 @@ void check_hold(const Held& h, const ForceOptions& options, bool must, bool feas
 
 Held held_ball(double mu = 0.6) { return held(test::around_ball(7, mu, 3)); }
 
-// the largest load against caps of one newton
+// the largest load for caps of one newton
 double largest_of_unit(const Held& h, ForceOptions options) {
   options.load = some_load;
   const ForceResult r = max_load(h.world, h.grasp, options);
@@ -104,7 +104,7 @@ double largest_of_unit(const Held& h, ForceOptions options) {
 
 }  // namespace
 
-TEST_CASE("forces grow with load and caps, whatever their size") {
+TEST_CASE("forces scale with load and caps") {
   const Held h = held_ball();
   for (const ForceObjective by : all_objectives) {
     CAPTURE(static_cast<int>(by));
@@ -117,7 +117,7 @@ TEST_CASE("forces grow with load and caps, whatever their size") {
   }
 }
 
-TEST_CASE("a load of any size against given caps or a given sum") {
+TEST_CASE("a load of any size with given caps or a given sum") {
   const Held h = held_ball();
   const double most = largest_of_unit(h, {.max_force = 1.0});
   for (const ForceObjective by : all_objectives) {
@@ -130,7 +130,7 @@ TEST_CASE("a load of any size against given caps or a given sum") {
   }
 }
 
-TEST_CASE("a cap that does not bind changes nothing") {
+TEST_CASE("an inactive cap changes nothing") {
   const Held h = held_ball();
   const double most = largest_of_unit(h, {.max_force = 1.0}),
                max_total = largest_of_unit(h, {.max_total_force = 1.0});
@@ -149,8 +149,8 @@ TEST_CASE("a cap that does not bind changes nothing") {
       check_hold(h, {.load = some_load, .objective = by, .max_total_force = x}, true,
                  x * max_total > 1, best(total));
       if (by != ForceObjective::min_norm || x < 10) return;
-      // the only ones of which the forces themselves are certain, to the root of what their
-      // objective is
+      // min_norm is the only objective with unique forces, to the square root of the accuracy of
+      // the objective
       const ForceResult r = hold(h, {.load = some_load, .objective = by, .max_force = x});
       for (size_t i = 0; i < r.forces.size(); ++i)
         CHECK((r.forces[i].force_W - free.forces[i].force_W).norm() < 1e-5);
@@ -158,7 +158,7 @@ TEST_CASE("a cap that does not bind changes nothing") {
   }
 }
 
-TEST_CASE("forces that shall be large are told where they hide the load") {
+TEST_CASE("forces that are large compared with the load are solved or reported as inaccurate") {
   const Held h = held_ball();
   const double most = largest_of_unit(h, {.max_force = 1.0}),
                max_total = largest_of_unit(h, {.max_total_force = 1.0});
@@ -175,7 +175,7 @@ TEST_CASE("forces that shall be large are told where they hide the load") {
 
 TEST_CASE("friction and torsion radii of any size") {
   each_power([&](double x, bool must) {
-    // each carries half of the load by friction
+    // each finger carries half of the load by friction
     const Held pinch = held(test::pinch(x));
     const Vector6d weight = wrench(0, 0, -1, 0, 0, 0);
     const auto check = [&](const Held& h, const Vector6d& load, ForceObjective by, double best) {
@@ -184,7 +184,7 @@ TEST_CASE("friction and torsion radii of any size") {
     check(pinch, weight, ForceObjective::min_sum, 1 / x);
     check(pinch, weight, ForceObjective::min_max, 0.5 / x);
     check(pinch, weight, ForceObjective::min_norm, 0.5 / (x * x) + 0.5);
-    // and of a torque by torsion
+    // and half of a torque by torsion
     const Held soft = held(test::pinch(0.5, x));
     check(soft, wrench(0, 0, 0, 1, 0, 0), ForceObjective::min_sum, 2 / x);
     for (const ForceObjective by : all_objectives) {
@@ -193,14 +193,16 @@ TEST_CASE("friction and torsion radii of any size") {
       const ForceResult r = hold(h, options);
       if (r.status == ForceStatus::optimal) check_sums(h, options, r);
       if (must) CHECK(r.status != ForceStatus::inaccurate);
-      // what is held with less friction is held with more
+      // a grasp held with less friction is also held with more
       CHECK((r.status != ForceStatus::infeasible || x < 0.1));
       CHECK((r.status != ForceStatus::optimal || x > 1e-3));
     }
   });
 }
 
-TEST_CASE("neither the length of torques nor that of the object changes what a load costs") {
+TEST_CASE(
+    "neither the length scale of torques nor the size of the object changes the forces for a "
+    "load") {
   const Held h = held_ball();
   for (const ForceObjective by : all_objectives) {
     const ForceOptions options{.load = some_load, .objective = by, .max_force = 10.0};
@@ -218,7 +220,7 @@ TEST_CASE("neither the length of torques nor that of the object changes what a l
       check_hold(scaled, longer, true, true, once);
     });
   }
-  // nothing holds across, whatever a torque counts
+  // without friction nothing resists the transverse force, for any length scale of torques
   each_power([&](double x, bool must) {
     Held smooth = held(test::pinch(0));
     smooth.grasp.rho = x;
@@ -229,7 +231,7 @@ TEST_CASE("neither the length of torques nor that of the object changes what a l
   });
 }
 
-TEST_CASE("the largest load grows with caps and friction, and resistance with them") {
+TEST_CASE("the largest load scales with caps and friction, and so does resistance") {
   const Vector6d weight = wrench(0, 0, -1, 0, 0, 0);
   const auto check = [&](const Held& h, double cap, double expected, bool must) {
     const ForceResult r = max_load(h.world, h.grasp, {.load = weight, .max_force = cap});
@@ -252,7 +254,7 @@ TEST_CASE("the largest load grows with caps and friction, and resistance with th
   });
 }
 
-TEST_CASE("equilibrium is stable where the motors, springs and caps say so, whatever their size") {
+TEST_CASE("equilibrium is stable according to motors, springs and caps of any size") {
   const auto ask = [](const Jaws& j, const EquilibriumOptions& options, bool must, bool stable) {
     const Equilibrium e = equilibrium(j.world, j.grasp, options);
     if (must)
@@ -261,12 +263,12 @@ TEST_CASE("equilibrium is stable where the motors, springs and caps say so, what
     CHECK(e.status != EquilibriumStatus::moving);
     if (e.status != EquilibriumStatus::stable) return;
     CHECK(stable);
-    // plain sums, along the world's axes that the object's are
+    // plain sums, along the axes of the world and of the object, which agree
     Sum sum = options.load.head<3>().cast<long double>();
     for (const ContactForce& f : e.result.forces) sum += f.force_W.cast<long double>();
     CHECK(static_cast<double>(sum.norm()) <= 2e-7 * options.load.norm());
   };
-  const Vector6d load = wrench(0, 0, -2, 0, 0, 0);  // each jaw presses 2
+  const Vector6d load = wrench(0, 0, -2, 0, 0, 0);  // each jaw presses with 2
   each_power([&](double x, bool must) {
     const Jaws free = jaws(DofKind::rigid, 0.5, 0), strong = jaws(DofKind::rigid, 0.5, x);
     ask(free, {.load = x * load}, true, true);
@@ -279,13 +281,13 @@ TEST_CASE("equilibrium is stable where the motors, springs and caps say so, what
     demand.efforts = Vector2d(x, x);
     ask(free, {.load = load, .joints = demand}, must, x > 2);
     ask(jaws(DofKind::rigid, x, 0), {.load = load}, must, true);
-    // motors without limit hold what springs press too much or too little
+    // motors without limits compensate excess or missing forces of springs
     ask(jaws(DofKind::compliant, 0.5, 0, false, x), {.load = load}, must, true);
   });
 }
 
-// jaws of this mass above and below the block: what they weigh, the motor of the upper one gives
-// less
+// jaws of this mass above and below the block: the weight of the upper one reduces the effort of
+// its motor
 static Jaws upright_jaws(double mass, double max_effort) {
   Jaws j = jaws(DofKind::rigid, 0.5, max_effort);
   const Pose up = Pose::turn(-std::numbers::pi / 2, Vector3d::UnitY());  // x to z
@@ -300,7 +302,7 @@ static Jaws upright_jaws(double mass, double max_effort) {
   return j;
 }
 
-TEST_CASE("motors hold links of any mass and press with the rest") {
+TEST_CASE("motors hold links of any mass and press with the remaining effort") {
   JointDemand demand;
   demand.link_weights = true;
   each_power([&](double mass, bool) {
@@ -320,7 +322,8 @@ TEST_CASE("motors hold links of any mass and press with the rest") {
         if (max_effort > 0) CHECK(std::abs(effort) <= max_effort + off);
       }
     };
-    // each jaw presses 2 N, the lower one beside its weight, which it cannot hold at all with less
+    // each jaw presses with 2 N, the lower one in addition to its weight; with less effort it
+    // cannot even carry that
     const double needed = weight + 2;
     ask(0, EquilibriumStatus::stable);  // without limit
     ask(needed * (1 + 1e-4), EquilibriumStatus::stable);
@@ -329,7 +332,8 @@ TEST_CASE("motors hold links of any mass and press with the rest") {
   });
 }
 
-TEST_CASE("an object of any mass is pressed as its weight wants, and as robust as what is left") {
+TEST_CASE(
+    "the effort for an object of any mass follows its weight, and robustness the remaining force") {
   const double free = 20 * 0.5 / (0.5 + std::sqrt(1.25));  // of six fingers with caps of 10 N
   std::vector<PointContact> faces;
   for (int k = 0; k < 3; ++k)
@@ -346,7 +350,7 @@ TEST_CASE("an object of any mass is pressed as its weight wants, and as robust a
           doctest::Approx(1).epsilon(relative_error));
     firm.world.set_mass(firm.grasp.object, mass);
     RobustnessProblem problem = MeasuredGrasp(firm.world, firm.grasp).robustness_problem();
-    problem.J.setIdentity(18, 18);  // fingers that press each as they will
+    problem.J.setIdentity(18, 18);  // independently controlled fingers
     const double found = contact_robustness(problem).radius;
     CHECK(found <= free * (1 + relative_error));
     CHECK(found >= free * (1 - relative_error) - 2 * weight);
@@ -354,7 +358,8 @@ TEST_CASE("an object of any mass is pressed as its weight wants, and as robust a
   });
 }
 
-TEST_CASE("just inside the friction angle is never infeasible, just outside never optimal") {
+TEST_CASE(
+    "slightly inside the friction angle is never infeasible, and slightly outside never optimal") {
   const double slope = 0.3;
   for (double off = 1e-3; off > 1e-11; off /= 10)
     for (const double sign : {1.0, -1.0}) {
@@ -367,7 +372,7 @@ TEST_CASE("just inside the friction angle is never infeasible, just outside neve
     }
 }
 
-TEST_CASE("a margin of 0 is told, with and without force closure") {
+TEST_CASE("a margin of 0 is reported, with and without force closure") {
   const ForceOptions firm{.objective = ForceObjective::max_margin, .max_force = 10.0};
   const ForceResult one = hold(held({test::contact_at({0.05, 0, 0}, {-1, 0, 0}, 0.5)}), firm);
   REQUIRE(one.status == ForceStatus::optimal);
@@ -377,7 +382,7 @@ TEST_CASE("a margin of 0 is told, with and without force closure") {
   REQUIRE(two.status == ForceStatus::optimal);
   CHECK(two.margin == doctest::Approx(two.objective).epsilon(1e-6));
   CHECK(two.margin > 3);
-  // least forces lie on their edges
+  // least forces lie on the edges of the cones
   const ForceResult least = hold(held(test::pinch(0.5)), {.load = wrench(0, 0, -1, 0, 0, 0)});
   CHECK(least.margin < 1e-8);
 }

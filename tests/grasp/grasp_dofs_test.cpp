@@ -27,7 +27,7 @@ std::string joint(const std::string& name, const std::string& parent, const std:
          more + "</joint>";
 }
 
-/// Two fingers of two joints each; the last joint of the second follows the first finger's.
+/// Two fingers of two joints each; the last joint of the second finger follows that of the first.
 struct Hand {
   World world;
   Id<Robot> hand;
@@ -70,9 +70,8 @@ using Numbers = std::vector<double>;
 }  // namespace
 
 TEST_CASE(
-    "a value within the rounding of 32 bits of a limit is the limit, one slightly beyond is "
-    "clamped with "
-    "a warning, one far beyond is refused") {
+    "a value within 32-bit rounding of a limit becomes the limit, one slightly beyond is clamped "
+    "with a warning, one far beyond is rejected") {
   Hand h;
   const auto set = [&](double a1) { return h.apply(h.grasp({"a1"}, {a1}))[0]; };
   CHECK(set(1.5700000524520874) == 1.57);
@@ -91,7 +90,7 @@ TEST_CASE(
       Error);
   CHECK_THROWS_WITH_AS(set(45), doctest::Contains("degrees? clench.rad(45) is 0.7854"), Error);
   CHECK_THROWS_WITH_AS(set(NAN), doctest::Contains("must be finite"), Error);
-  // millimeters count for joints that slide
+  // tolerances of prismatic joints are millimeters
   Hand sliding(true, "prismatic");
   const auto slide = [&](double a1) { return sliding.apply(sliding.grasp({"a1"}, {a1}))[0]; };
   CHECK(slide(1.5705) == 1.57);
@@ -99,7 +98,7 @@ TEST_CASE(
   CHECK_THROWS_WITH_AS(slide(1.58), doctest::Contains("must lie in [-0.5, 1.57] m"), Error);
 }
 
-TEST_CASE("a hand keeps its state when a grasp does not fit it") {
+TEST_CASE("a hand keeps its state if a grasp does not fit it") {
   Hand h;
   const auto before = h.apply(h.grasp({"a1", "a2", "b1"}, {0.1, 0.2, 0.3}));
   GraspSpec g = h.grasp({"a1", "b1"}, {0.4, 3});
@@ -110,11 +109,11 @@ TEST_CASE("a hand keeps its state when a grasp does not fit it") {
   CHECK(h.world.pose(h.world.robot(h.hand).base) == Pose{});
 }
 
-TEST_CASE("joints that follow may be listed beside their leaders, and alone") {
+TEST_CASE("values of following joints may be listed in addition to their leaders, and alone") {
   Hand h;
   CHECK(h.apply(h.grasp({"b2", "a1", "a2", "b1"}, {0.1, 0.3, 0.2, 0.4})) == Numbers{0.3, 0.2, 0.4});
   CHECK(h.said.empty());
-  // to the rounding of 32 bits
+  // to 32-bit rounding
   h.apply(h.grasp({"a2", "b2"}, {0.2, 0.10000000149}));
   CHECK(h.said.empty());
   CHECK(h.apply(h.grasp({"b2"}, {0.25}))[1] == 0.5);
@@ -128,7 +127,7 @@ TEST_CASE("joints that follow may be listed beside their leaders, and alone") {
                        Error);
 }
 
-TEST_CASE("the value of a joint that follows includes the offset of its mimic") {
+TEST_CASE("the value of a following joint includes the offset of its mimic") {
   Hand h(true, "revolute", " offset='0.1'");
   CHECK(h.apply(h.grasp({"a1", "a2", "b1", "b2"}, {0.3, 0.2, 0.4, 0.2})) == Numbers{0.3, 0.2, 0.4});
   CHECK(h.said.empty());
@@ -145,7 +144,8 @@ TEST_CASE("the value of a joint that follows includes the offset of its mimic") 
 }
 
 TEST_CASE(
-    "DOFs without names are taken in the hand's order, with a warning if Isaac Sim has another") {
+    "DOFs without names are taken in the hand's order, with a warning if Isaac Sim has another "
+    "order") {
   Hand h(false);
   const GraspSpec g = h.grasp({}, {0.11, 0.21, 0.12, 0.22});
   CHECK(h.apply(g) == Numbers{0.11, 0.21, 0.12, 0.22});
@@ -165,7 +165,7 @@ TEST_CASE(
                        Error);
 }
 
-TEST_CASE("without names there may be a value for every joint, those that follow included") {
+TEST_CASE("without names there may be a value for every joint, including followers") {
   Hand h;
   // of a1, b1, a2, b2
   CHECK(h.apply(h.grasp({}, {0.1, 0.3, 0.2, 0.1}), DofOrder::isaac) == Numbers{0.1, 0.2, 0.3});
@@ -180,7 +180,7 @@ TEST_CASE("without names there may be a value for every joint, those that follow
       "dof_order: expected as many values as 'twin' has DOFs, 3, or joints, 4, got 5", Error);
 }
 
-TEST_CASE("the DOFs of a pregrasp go by the names of the grasp") {
+TEST_CASE("the DOFs of a pregrasp are matched by the names of the grasp") {
   Hand h;
   GraspSpec g = h.grasp({"b1", "a1"}, {0.3, 0.1});
   g.pregrasp = PregraspState{Pose{}, {1.5702, 0.2}};
@@ -197,7 +197,7 @@ TEST_CASE("the DOFs of a pregrasp go by the names of the grasp") {
                        "g: pregrasp: expected 2 values, one per name of a DOF, got 1", Error);
 }
 
-TEST_CASE("a breadth-first order takes links without joints as parts of their parents") {
+TEST_CASE("a breadth-first order treats links without joints as parts of their parents") {
   Robot robot;
   // palm: a fixed spacer with a finger of two joints, and a finger of one link with two joints
   robot.links.resize(4);

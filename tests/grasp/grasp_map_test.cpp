@@ -36,8 +36,7 @@ TEST_CASE("unit forces of the map are the cone's edges") {
   }
 }
 
-TEST_CASE(
-    "turned frames give the same wrenches from forces along the axes of the world's contacts") {
+TEST_CASE("rotated frames give the same wrenches from forces along the world axes") {
   const PointContact points[] = {test::contact_at({0.1, 0.2, 0.3}, {0, 0, 1}, 0.5),
                                  test::contact_at({0, 0.1, 0}, {1, 1, 0}, 0),
                                  test::contact_at({0.3, 0, 0}, {1, 2, 3}, 0.5, 0.01)};

@@ -22,14 +22,14 @@ BodySpec body(const std::string& name, const Mesh& mesh, const std::string& mate
   return spec;
 }
 
-// a finger that slides along z of the frame that it begins at, 0.1 m beside the middle
+// a finger that slides along z of its initial frame, 0.1 m beside the middle
 void add_finger(RobotSpec& robot, const std::string& name, const Pose& X_BC, int dof) {
   LinkSpec link{.body = body(name, test::box(0.02, 0.02, 0.02), "rubber")};
   link.joints = {{.kind = JointKind::prismatic, .X_PJ = X_BC, .dof = dof, .min = 0, .max = 0.1}};
   robot.links.push_back(link);
 }
 
-// a gripper: palm below, a finger from either side
+// a gripper: palm below, a finger on each side
 RobotSpec gripper() {
   const double quarter = std::numbers::pi / 2;
   RobotSpec spec;
@@ -50,7 +50,7 @@ struct Scene {
   Id<Body> object;
 };
 
-// a cube of 0.1 m between both fingers, `X` moves all of it
+// a cube of 0.1 m between both fingers; `X` moves the complete scene
 Scene scene(const Pose& X = Pose()) {
   Scene s;
   s.hand = s.world.add_robot(gripper(), X);
@@ -63,7 +63,7 @@ void close(Scene& s) { s.world.set_dofs(s.hand, Eigen::Vector2d::Constant(0.1 - 
 
 }  // namespace
 
-TEST_CASE("a hand that touches nothing grasps nothing, and that is no error") {
+TEST_CASE("a hand without contacts has an empty grasp, which is not an error") {
   Scene s = scene();
   const Grasp grasp = find_grasp(s.world, s.hand, s.object);
   CHECK(grasp.contacts.empty());
@@ -76,7 +76,7 @@ TEST_CASE("contacts lie on the object and push into it, in its own frame") {
   Scene s = scene();
   close(s);
   const Grasp grasp = find_grasp(s.world, s.hand, s.object);
-  REQUIRE(grasp.contacts.size() == 8);  // four corners a finger
+  REQUIRE(grasp.contacts.size() == 8);  // four corners per finger
   REQUIRE(grasp.points.size() == 8);
   for (size_t i = 0; i < 8; ++i) {
     const PointContact& p = grasp.points[i];
@@ -91,7 +91,7 @@ TEST_CASE("contacts lie on the object and push into it, in its own frame") {
   CHECK(grasp.rho == doctest::Approx(0.05 * std::sqrt(3.0)));
 }
 
-TEST_CASE("two faces with friction are a force closure, without it they are not") {
+TEST_CASE("two faces with friction are a force closure, and without friction they are not") {
   Scene s = scene();
   close(s);
   const WrenchSpace held = wrench_space(find_grasp(s.world, s.hand, s.object));
@@ -99,12 +99,12 @@ TEST_CASE("two faces with friction are a force closure, without it they are not"
   CHECK(held.rank() == 6);
   s.world.set_friction("rubber", "wood", {.statics = 0, .kinetic = 0});
   const WrenchSpace slips = wrench_space(find_grasp(s.world, s.hand, s.object));
-  // along the line of the fingers, and two turns across it
+  // along the line of the fingers, and two rotations across it
   CHECK(slips.rank() == 3);
   CHECK(slips.epsilon() == 0);
 }
 
-TEST_CASE("what another hand or the floor does to the object is not this grasp") {
+TEST_CASE("contacts of another hand or the floor with the object are not part of this grasp") {
   Scene s = scene();
   close(s);
   const double before = wrench_space(find_grasp(s.world, s.hand, s.object)).epsilon();
@@ -113,7 +113,7 @@ TEST_CASE("what another hand or the floor does to the object is not this grasp")
   CHECK(wrench_space(find_grasp(s.world, s.hand, s.object)).epsilon() == before);
 }
 
-TEST_CASE("quality does not depend on where the grasp stands") {
+TEST_CASE("quality does not depend on the position of the grasp") {
   Scene s = scene();
   close(s);
   const WrenchSpace here = wrench_space(find_grasp(s.world, s.hand, s.object));
@@ -126,7 +126,7 @@ TEST_CASE("quality does not depend on where the grasp stands") {
   CHECK(std::abs(here.volume() - there.volume()) < 1e-9);
 }
 
-TEST_CASE("a longer torque length makes torques count less") {
+TEST_CASE("a longer torque length reduces the weight of torques") {
   Scene s = scene();
   close(s);
   const auto epsilon = [&](double rho) {
@@ -136,13 +136,14 @@ TEST_CASE("a longer torque length makes torques count less") {
   CHECK(epsilon(0.2) > epsilon(0.4));
 }
 
-TEST_CASE("the torque length is the largest radius, or that of gyration, or what is asked for") {
+TEST_CASE("the torque length is the maximal radius, or that of gyration, or a given number") {
   Scene s = scene();
   close(s);
   const Grasp grasp = find_grasp(s.world, s.hand, s.object);
   const Grasp by_mass =
       find_grasp(s.world, s.hand, s.object, {.length = TorqueLength::gyration_radius});
-  // of a cube of side a: a sqrt(3) / 2, and a / 2, as its inertia is m a^2 / 6 about each axis
+  // for a cube of side a: a sqrt(3) / 2, and a / 2, because its inertia is m a^2 / 6 about each
+  // axis
   CHECK(grasp.rho == doctest::Approx(0.05 * std::sqrt(3.0)));
   CHECK(by_mass.rho == doctest::Approx(0.05));
   CHECK(std::abs(wrench_space(grasp, {.rho = by_mass.rho}).epsilon() -
@@ -153,7 +154,7 @@ TEST_CASE("the torque length is the largest radius, or that of gyration, or what
   CHECK(wrench_space(grasp, {.space = {.coordinates = {0, 1, 2}}}).dimension() == 3);
 }
 
-TEST_CASE("a grasp that makes no sense is refused by name") {
+TEST_CASE("an invalid grasp is rejected by name") {
   Scene s = scene();
   const auto refuse = [&](Id<Body> object, const GraspOptions& options, const char* message) {
     CHECK_THROWS_WITH_AS(find_grasp(s.world, s.hand, object, options), message, Error);
@@ -173,7 +174,7 @@ TEST_CASE("a grasp that makes no sense is refused by name") {
   CHECK_THROWS_AS(find_grasp(s.world, s.hand, gone), Error);
 }
 
-TEST_CASE("soft contacts resist turns as their patches do, hard ones none") {
+TEST_CASE("soft contacts resist torsion as their patches do, and hard ones do not") {
   Scene s = scene();
   close(s);
   for (const PointContact& p : find_grasp(s.world, s.hand, s.object).points)
@@ -193,7 +194,7 @@ TEST_CASE("soft contacts resist turns as their patches do, hard ones none") {
   };
   CHECK(radius({.normal_force = 80}) == doctest::Approx(2 * radius({})).epsilon(0.01));
   CHECK(radius({.soft = false}) == 0);
-  // each at a force of its own; what carries nothing resists nothing
+  // one force per contact; a contact without force has no torsion radius
   std::vector<double> forces(soft.points.size());
   for (size_t i = 0; i < forces.size(); ++i) forces[i] = static_cast<double>(i);
   const Grasp own = find_grasp(s.world, s.hand, s.object, {.normal_force = forces});

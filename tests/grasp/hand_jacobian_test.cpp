@@ -90,7 +90,7 @@ VectorXd measured_column(const Arranged& a, Id<Robot> robot, int dof) {
 
 }  // namespace
 
-TEST_CASE("the hand Jacobian is what the contacts do when a DOF moves") {
+TEST_CASE("the hand Jacobian equals the motion of contacts when a DOF moves") {
   Random random(1);
   for (const char* hand :
        {"barrett/barrett.cfg", "dlr/dlr.cfg", "parallel_jaw/parallel_jaw.cfg",
@@ -102,7 +102,7 @@ TEST_CASE("the hand Jacobian is what the contacts do when a DOF moves") {
       const HandJacobian jacobian = hand_jacobian(a.world, a.grasp, {.arms = on_arm});
       const MatrixXd dofs = dof_jacobian(a.world, a.grasp, jacobian);
       for (int k = 0; k < dofs.cols(); ++k)
-        // second differences over 1e-12, rounding over 1e-6
+        // second differences divided by 1e-12, rounding divided by 1e-6
         CHECK((dofs.col(k) - measured_column(a, a.grasp.hand, k)).cwiseAbs().maxCoeff() < 1e-8);
       if (!on_arm) continue;
       const auto arm = a.world.robot(a.grasp.hand).mounting->parent;
@@ -138,13 +138,13 @@ TEST_CASE("a joint that has broken away is moved by no DOF, and held by its clut
   CHECK(balance.refs.back().clutch->joint == joint);
   const int last = static_cast<int>(balance.refs.size()) - 1;
   CHECK(balance.low[last] == 0);
-  CHECK(balance.high[last] == doctest::Approx(0.5));  // [N m], as the file says
+  CHECK(balance.high[last] == doctest::Approx(0.5));  // [N m], from the file
   CHECK(balance.high[dof] == doctest::Approx(robot.dofs[dof].max_effort));
 }
 
 namespace {
 
-// a hand of two fingers that has begun to close, far from a box that it is to grasp
+// a hand of two fingers that has begun to close, far from the box to grasp
 Grasp begun_grasp(World& world, const RobotSpec& spec) {
   Grasp grasp;
   grasp.hand = world.add_robot(spec, Pose());
@@ -156,7 +156,7 @@ Grasp begun_grasp(World& world, const RobotSpec& spec) {
 
 }  // namespace
 
-TEST_CASE("a rigid DOF is one balance, a compliant one as many as it has joints") {
+TEST_CASE("a rigid DOF has one balance equation, a compliant one has one per joint") {
   for (const auto kind : {DofKind::rigid, DofKind::compliant}) {
     RobotSpec spec = test::two_finger(kind);
     for (auto& link : spec.links)
@@ -175,7 +175,8 @@ TEST_CASE("a rigid DOF is one balance, a compliant one as many as it has joints"
 }
 
 TEST_CASE(
-    "the tendon of a compliant DOF holds all of its springs in free air, and does the DOF's work") {
+    "the tendon of a compliant DOF balances all of its springs in free air, and does the DOF's "
+    "work") {
   RobotSpec spec = test::two_finger(DofKind::compliant);
   for (const int c : {0, 1})
     test::joint_of(spec, c, 0).spring = 0.1, test::joint_of(spec, c, 1).spring = 0.3;
@@ -202,7 +203,7 @@ double height_energy(const World& world) {
 
 }  // namespace
 
-TEST_CASE("what links weigh in a joint is how their height changes with it") {
+TEST_CASE("the weight of links in a joint is the derivative of their height with respect to it") {
   Random random(3);
   for (const char* hand : {"barrett/barrett.cfg", "parallel_jaw/parallel_jaw.cfg"}) {
     CAPTURE(hand);
@@ -219,7 +220,7 @@ TEST_CASE("what links weigh in a joint is how their height changes with it") {
         moved.set_dofs_unchecked(ref.robot, moved.dofs(ref.robot), own);
         energy[side] = height_energy(moved);
       }
-      // some 20 kg at a meter: 200 J, rounding of 1e-13 over 1e-6
+      // some 20 kg at a meter: 200 J, rounding of 1e-13 divided by 1e-6
       const double weight = link_weight(a.world, ref);
       CHECK(std::abs(weight + (energy[1] - energy[0]) / (2 * h)) < 1e-6);
       heaviest = std::max(heaviest, std::abs(weight));
@@ -232,7 +233,7 @@ TEST_CASE("what links weigh in a joint is how their height changes with it") {
   }
 }
 
-TEST_CASE("a grasp that no longer stands as it was measured is told") {
+TEST_CASE("a grasp that no longer matches the world is reported") {
   World world;
   const auto hand = world.add_robot(test::two_finger(), Pose());
   const auto object = world.add_body(test::body_spec("thing", test::box(0.01, 0.01, 0.01)),

@@ -1,4 +1,4 @@
-// Grasps put together from points, without a hand that could hold them so.
+// Grasps composed of points, without a hand that could reach them.
 #pragma once
 #include "clench/base/random.h"
 #include "clench/grasp/force/contact_forces.h"
@@ -44,13 +44,13 @@ inline PointContact contact_at(const Eigen::Vector3d& p, const Eigen::Vector3d& 
   return {.p_O = p, .n_O = n.normalized(), .mu = mu, .torsion_radius = torsion_radius};
 }
 
-/// Two fingers on the line through the middle, 0.1 m apart.
+/// Two fingers on a line through the center, 0.1 m apart.
 inline std::vector<PointContact> pinch(double mu, double torsion_radius = 0) {
   return {contact_at({0.05, 0, 0}, {-1, 0, 0}, mu, torsion_radius),
           contact_at({-0.05, 0, 0}, {1, 0, 0}, mu, torsion_radius)};
 }
 
-/// Contacts all over a ball of 0.05 m, at random.
+/// Random contacts on a ball of 0.05 m.
 inline std::vector<PointContact> around_ball(int count, double mu, uint64_t seed,
                                              double torsion_radius = 0) {
   Random random(seed);

@@ -4,14 +4,14 @@
 
 namespace clench::test {
 
-/// Two jaws that slide along x towards each other, a block of 40 mm between them; a palm below that
-/// may touch it.
+/// Two jaws that slide along x towards each other, with a block of 40 mm between them; optionally a
+/// palm that touches it from below.
 struct Jaws {
   World world;
   Grasp grasp;
 };
 
-/// springs of this stiffness [N/m] press inwards until the jaws are closed
+/// spring  stiffness of springs that press inwards [N/m]
 /// actuators  of the joints "jaw0" and "jaw1", `dof` 0 and 1
 inline Jaws jaws(DofKind kind, double mu, double max_effort, bool palm = false, double spring = 0,
                  const std::vector<ActuatorSpec>& actuators = {},

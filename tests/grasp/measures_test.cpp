@@ -19,7 +19,7 @@ double value(Held& h, std::string_view name) {
   return find_measure(name).of(measured);
 }
 
-// six fingers in the middle of a cube's faces, 0.1 m from the middle, which is rho
+// six fingers at the centers of a cube's faces, 0.1 m from its center, which is rho
 Held six_fingers(double mu) {
   std::vector<PointContact> points;
   for (int k = 0; k < 3; ++k)
@@ -39,7 +39,7 @@ TEST_CASE("six fingers on a cube: G G^T is 6 for forces and 4 for torques") {
   CHECK(value(h, "epsilon") > 0);
 }
 
-TEST_CASE("a square of fingers has its area and no irregularity, wherever it stands") {
+TEST_CASE("a square of fingers has its area and no irregularity, at any position") {
   std::vector<PointContact> points;
   for (const auto& p :
        {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(-1, 0, 0), Vector3d(0, -1, 0)})
@@ -51,11 +51,11 @@ TEST_CASE("a square of fingers has its area and no irregularity, wherever it sta
   CHECK(value(h, "centroid_distance") == doctest::Approx(0.03));
 }
 
-TEST_CASE("the weight is held by friction: two fingers press with weight over 2 mu each") {
+TEST_CASE("friction holds the weight: two fingers press with weight over 2 mu each") {
   Held h = held(pinch(0.5, 0.01));
   const double weight = 9.81 * h.world.body(h.grasp.object).mass;
   CHECK(value(h, "gravity_effort") == doctest::Approx(weight / 0.5).epsilon(1e-7));
-  // along the line of the fingers it needs no friction
+  // along the line of the fingers no friction is required
   const Pose up = Pose::turn(std::numbers::pi / 2, Vector3d::UnitY());
   Held upright = held(pinch(0, 0), up);
   CHECK(value(upright, "gravity_effort") == doctest::Approx(weight).epsilon(1e-7));
@@ -63,7 +63,7 @@ TEST_CASE("the weight is held by friction: two fingers press with weight over 2 
   CHECK(value(slippery, "gravity_effort") == std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("a grasp without contacts is worth nothing, by every measure") {
+TEST_CASE("a grasp without contacts has the worst value of every measure") {
   Held h = held({});
   for (const char* name :
        {"epsilon", "volume", "min_singular_value", "ellipsoid_volume", "isotropy", "polygon_area",
@@ -75,7 +75,7 @@ TEST_CASE("a grasp without contacts is worth nothing, by every measure") {
   CHECK(value(h, "joint_margin") == std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("places of DOFs in their ranges: the middle is best, a limit worst") {
+TEST_CASE("positions of DOFs in their ranges: the middle is best, a limit worst") {
   Held h = six_fingers(0.5);
   const RobotSpec spec = read_robot("models/hands/barrett/barrett.cfg");
   h.grasp.hand = h.world.add_robot(spec, Pose());
@@ -94,24 +94,24 @@ TEST_CASE("places of DOFs in their ranges: the middle is best, a limit worst") {
   }
 }
 
-TEST_CASE("no measure changes when the world is moved") {
+TEST_CASE("no measure changes when the complete scene is moved") {
   Random random(4);
   for (int round = 0; round < 3; ++round) {
     const auto points = around_ball(6, 0.6, 10 + round, round == 2 ? 0.01 : 0);
     Held here = held(points);
     Held there = held(points, {Eigen::Quaterniond(0.3, -0.5, 0.7, 0.1).normalized(), {1, 2, 3}});
     for (const Measure& measure : measures()) {
-      // gravity is the world's: the weight pulls in another direction
+      // gravity is fixed in the world: the weight pulls in another direction
       if (measure.name == "gravity_effort" || measure.name.ends_with("robustness")) continue;
       const double a = value(here, measure.name), b = value(there, measure.name);
-      // infinite ones are equal alone
+      // infinite values must be exactly equal
       const bool same = a == b || a == doctest::Approx(b).epsilon(1e-9);
       CHECK_MESSAGE(same, measure.name);
     }
   }
 }
 
-TEST_CASE("soft fingers hold more than points") {
+TEST_CASE("soft fingers hold more than point contacts") {
   Held hard = held(pinch(0.5)), soft = held(pinch(0.5, 0.02));
   CHECK(value(hard, "min_singular_value") == 0);
   CHECK(value(soft, "min_singular_value") > 0);
@@ -119,7 +119,7 @@ TEST_CASE("soft fingers hold more than points") {
   CHECK(value(soft, "grasp_robustness") >= value(soft, "contact_robustness"));
 }
 
-TEST_CASE("measures have different names, a range, a unit and a source each") {
+TEST_CASE("measures have different names, and each has a range, a unit and a source") {
   std::set<std::string_view> names;
   for (const Measure& m : measures()) {
     CHECK(names.insert(m.name).second);
@@ -129,7 +129,7 @@ TEST_CASE("measures have different names, a range, a unit and a source each") {
                        "unknown measure 'epsilom'; did you mean 'epsilon'?", Error);
 }
 
-TEST_CASE("contacts that are there twice change neither the polygon nor its middle") {
+TEST_CASE("duplicated contacts change neither the polygon nor its centroid") {
   const std::vector<Vector3d> once = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   std::vector<Vector3d> twice = once;
   twice.push_back(once[1]), twice.push_back(once[1]);
@@ -140,7 +140,7 @@ TEST_CASE("contacts that are there twice change neither the polygon nor its midd
 
 namespace {
 
-// a rod along x and a hand that comes from a direction, both turned
+// a rod along x and a hand with a given approach direction, both turned
 Held before_rod(const Vector3d& size, const Vector3d& approach, const Pose& X_WO) {
   Held h = six_fingers(0.5);
   h.grasp.object =
@@ -155,7 +155,7 @@ Held before_rod(const Vector3d& size, const Vector3d& approach, const Pose& X_WO
 
 }  // namespace
 
-TEST_CASE("hands that come along or across an object are orthogonal, none to a cube") {
+TEST_CASE("hands along or across an object's axis are orthogonal, and to a cube they are not") {
   const Pose poses[] = {Pose(), {Eigen::Quaterniond(0.3, -0.5, 0.7, 0.1).normalized(), {1, 2, 3}}};
   const double quarter = std::numbers::pi / 4;
   for (const Pose& X : poses)
@@ -172,7 +172,8 @@ TEST_CASE("hands that come along or across an object are orthogonal, none to a c
     }
 }
 
-TEST_CASE("normals in one plane are coplanar, those of a cube's faces as little as can be") {
+TEST_CASE(
+    "normals in one plane are coplanar, and those of a cube's faces have the lowest coplanarity") {
   const auto fan = [](double lean, int count, bool twice) {
     std::vector<PointContact> points;
     for (int i = 0; i < count; ++i) {
@@ -198,7 +199,7 @@ TEST_CASE("normals in one plane are coplanar, those of a cube's faces as little 
   CHECK(value(nothing, "coplanarity") == std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("contacts that are off by less than the margin keep force closure") {
+TEST_CASE("contacts displaced by less than the margin keep force closure") {
   Random random(21);
   int closed = 0;
   for (int round = 0; round < 20; ++round) {
@@ -206,7 +207,7 @@ TEST_CASE("contacts that are off by less than the margin keep force closure") {
     const double margin = value(h, "contact_position_tolerance"), rho = h.grasp.rho;
     CHECK(margin == doctest::Approx(value(h, "epsilon") * rho / std::hypot(1, 0.7)));
     closed += margin > 0;
-    // the same grasp ten times as large may be off ten times as far
+    // the same grasp ten times as large has ten times the margin
     Held large = h;
     for (PointContact& c : large.grasp.points) c.p_O *= 10, c.torsion_radius *= 10;
     large.grasp.rho *= 10;

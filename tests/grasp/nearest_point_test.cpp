@@ -16,7 +16,7 @@ NearestPoint nearest_of(const Eigen::MatrixXd& points, const Eigen::VectorXd& pl
 
 }  // namespace
 
-TEST_CASE("no point of the set is nearer: all lie beyond the plane through the nearest") {
+TEST_CASE("no point of the set is nearer: all lie beyond the plane through the nearest point") {
   Random random(1);
   for (int d = 1; d <= 6; ++d)
     for (int trial = 0; trial < 60; ++trial) {
@@ -42,7 +42,7 @@ TEST_CASE("no point of the set is nearer: all lie beyond the plane through the n
     }
 }
 
-TEST_CASE("hard sets of every kind have a nearest point, repeated points or not") {
+TEST_CASE("hard sets of every kind have a nearest point, with or without repeated points") {
   for (int kind = 0; kind < wrench_set_kinds; ++kind)
     for (uint64_t number = 0; number < 30; ++number) {
       CAPTURE(wrench_set_kind(kind));
@@ -50,7 +50,7 @@ TEST_CASE("hard sets of every kind have a nearest point, repeated points or not"
       const Wrenches all = side_by_side(wrench_set(kind, number)) / 4;
       const NearestPoint nearest = nearest_of(all, Vector6d::Zero());
       if (nearest.distance < 1e-9) continue;
-      // the plane through the nearest point is good to rounding over the distance
+      // the plane through the nearest point is accurate to rounding divided by the distance
       CHECK((nearest.point.transpose() * (all.colwise() - Vector6d(nearest.point))).minCoeff() >
             -1e-12 * (1 + nearest.distance));
     }

@@ -8,7 +8,8 @@
 using namespace clench;
 
 TEST_CASE(
-    "the least of offsets that come and go is that of a plain search, the lowest of several") {
+    "the minimum of added and removed offsets equals that of a plain search, with the lowest index "
+    "of equals") {
   Random random(1);
   OffsetList list;
   for (int round = 0; round < 3; ++round) {
@@ -20,7 +21,7 @@ TEST_CASE(
       const size_t index = random.bits() % (step < 200 ? 40 : many);
       const double none = std::numeric_limits<double>::infinity();
       if (plain.size() <= index) plain.resize(index + 1, none);
-      // few different ones, so that several are the least
+      // few different values, so that several are minimal
       const double offset = static_cast<double>(random.bits() % 50) - 10;
       const bool drop = random.bits() % 3 == 0;
       if (drop)
@@ -40,7 +41,7 @@ TEST_CASE("an offset may be replaced by a larger one") {
   list.set(7, 2);
   list.set(3, 5);
   CHECK(list.least() == 7);
-  list.drop(1000);  // was never there
+  list.drop(1000);  // never present
   list.drop(7);
   CHECK(list.least() == 3);
 }

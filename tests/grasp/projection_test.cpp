@@ -34,8 +34,8 @@ double mesh_volume(const Mesh& mesh) {
   return sum;
 }
 
-// brute-force reference: all facets of the hull in six dimensions, cut, and the corners of the
-// region that they bound
+// brute-force reference: all facets of the hull in six dimensions, cut by the plane, and the
+// corners of the region that they bound
 double slow_slice_volume(const WrenchSpace& space,
                          const std::vector<std::pair<int, double>>& fixed) {
   const Hull hull = space.hull();
@@ -50,7 +50,7 @@ double slow_slice_volume(const WrenchSpace& space,
         if (coordinate == c) offset -= hull.normals(c, f) * value, is_free = false;
       if (is_free) n[next++] = hull.normals(c, f);
     }
-    REQUIRE(offset > 0);  // the slice holds its origin
+    REQUIRE(offset > 0);  // the slice contains its origin
     duals.push_back(n / offset);
   }
   Eigen::MatrixXd points(3, duals.size());
@@ -62,8 +62,8 @@ double slow_slice_volume(const WrenchSpace& space,
 }  // namespace
 
 TEST_CASE(
-    "a section or a projection of a cross polytope is an octahedron, smaller as the section is "
-    "farther") {
+    "a section or a projection of a cross polytope is an octahedron, smaller for more distant "
+    "sections") {
   const WrenchSpace space({cross()});
   const Projection projection = project(space, {.projected = {3, 4, 5}});
   CHECK(projection.volume == doctest::Approx(8.0 / 6).epsilon(1e-12));
@@ -79,7 +79,7 @@ TEST_CASE(
   CHECK(mixed.volume == doctest::Approx(std::pow(0.75, 3) * 8 / 6).epsilon(1e-9));
 }
 
-TEST_CASE("a section of a frictional grasp is that of all facets of its hull") {
+TEST_CASE("a section of a frictional grasp equals that of all facets of its hull") {
   for (const int edges : {3, 5, 8}) {
     const WrenchSpace space = tetrahedral(0.6, edges);
     for (const auto& fixed :
@@ -103,7 +103,7 @@ TEST_CASE("a section of a frictional grasp is that of all facets of its hull") {
   }
 }
 
-TEST_CASE("projections are hulls of what is left of the wrenches") {
+TEST_CASE("projections are hulls of the projected wrenches") {
   const WrenchSpace space = tetrahedral(0.6, 8);
   Eigen::MatrixXd points(3, 32);
   for (int i = 0; i < 4; ++i)
@@ -112,7 +112,7 @@ TEST_CASE("projections are hulls of what is left of the wrenches") {
   CHECK(projection.volume == doctest::Approx(convex_hull(points).volume).epsilon(1e-9));
 }
 
-TEST_CASE("round cones and L-infinity have sections, too: round ones hold their pyramids") {
+TEST_CASE("round cones and L-infinity have sections, too: round ones contain their pyramids") {
   const std::vector<std::pair<int, double>> fixed = {{3, 0}, {4, 0}, {5, 0}};
   for (const WrenchNorm norm : {WrenchNorm::l1, WrenchNorm::linf}) {
     const double coarse = project(tetrahedral(0.6, 4, norm), {.fixed = fixed}).volume;
@@ -127,7 +127,7 @@ TEST_CASE("round cones and L-infinity have sections, too: round ones hold their 
         project(tetrahedral(0.6, 4), {.fixed = fixed}).volume);
 }
 
-TEST_CASE("what is flat has no volume and no mesh") {
+TEST_CASE("flat projections have no volume and no mesh") {
   Wrenches flat = cross();
   flat.row(1).setZero();
   const Projection projection = project(WrenchSpace({flat}), {.projected = {3, 4, 5}});
@@ -136,7 +136,7 @@ TEST_CASE("what is flat has no volume and no mesh") {
   CHECK(project(WrenchSpace(std::vector<Wrenches>()), {.projected = {3, 4, 5}}).volume == 0);
 }
 
-TEST_CASE("what cannot be projected is refused by name") {
+TEST_CASE("invalid projections are rejected by name") {
   const WrenchSpace space({cross()});
   const WrenchSpace forces({cross()}, {.coordinates = {0, 1, 2}});
   const auto refuse = [](const WrenchSpace& s, const ProjectionOptions& options, const char* why) {

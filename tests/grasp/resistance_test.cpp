@@ -9,10 +9,10 @@ using namespace clench;
 using namespace clench::test;
 using Eigen::Vector3d;
 
-TEST_CASE("two fingers of one newton hold 2 mu across them, 1 newton along them") {
+TEST_CASE("two fingers of one newton hold 2 mu across them, and 1 newton along them") {
   for (const double mu : {0.3, 0.8}) {
     Held h = held(pinch(mu, 0.01));
-    // L1: half a newton each, or all of one finger
+    // L1: half a newton per finger, or all from one finger
     CHECK(resistance(h.world, h.grasp, wrench(0, 0, -2, 0, 0, 0)) == doctest::Approx(mu / 2));
     CHECK(resistance(h.world, h.grasp, wrench(3, 0, 0, 0, 0, 0)) == doctest::Approx(1.0 / 3));
     CHECK(resistance(h.world, h.grasp, wrench(0, 0, -2, 0, 0, 0), {WrenchNorm::linf}) ==
@@ -26,7 +26,8 @@ TEST_CASE("two fingers of one newton hold 2 mu across them, 1 newton along them"
         std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("no wrench of length one is resisted less than epsilon, and the weakest just so much") {
+TEST_CASE(
+    "no wrench of length one is resisted less than epsilon, and the weakest exactly as much") {
   for (const WrenchNorm norm : {WrenchNorm::l1, WrenchNorm::linf}) {
     Held h = held(around_ball(6, 0.7, 3));
     h.grasp.options.edges = round_edges;
@@ -63,7 +64,7 @@ TEST_CASE("an ellipsoid with torques of rho newton meters is the ball of epsilon
   }
 }
 
-TEST_CASE("what lies in the ellipsoid that is resisted is resisted") {
+TEST_CASE("every wrench in the resisted ellipsoid is resisted") {
   Held h = held(around_ball(6, 0.7, 11), {Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {0, 0, 1}});
   h.grasp.options.edges = round_edges;
   const Vector6d axes = wrench(1, 2, 0.5, 0.02, 0.05, 0.1);
@@ -78,11 +79,11 @@ TEST_CASE("what lies in the ellipsoid that is resisted is resisted") {
     least = std::min(least, resistance(h.world, h.grasp, w));
   }
   CHECK(least >= multiple * (1 - 1e-6));
-  // two hundred directions come near the worst of six dimensions
+  // two hundred directions approximate the worst of six dimensions
   CHECK(least < 3 * multiple);
 }
 
-TEST_CASE("wrenches and half axes that are no numbers are refused") {
+TEST_CASE("invalid wrenches and semi-axes are rejected") {
   Held h = held(pinch(0.5));
   CHECK_THROWS_WITH_AS(resistance(h.world, h.grasp, wrench(NAN, 0, 0, 0, 0, 0)),
                        "resistance: the wrench must be finite", Error);

@@ -13,7 +13,7 @@ using Eigen::MatrixXd, Eigen::Vector3d, Eigen::VectorXd;
 
 namespace {
 
-// contacts pressing towards the origin from the points given
+// contacts at the given points that press towards the origin
 RobustnessProblem towards_origin(const std::vector<Vector3d>& points, double mu) {
   const auto n = static_cast<Eigen::Index>(points.size());
   RobustnessProblem problem;
@@ -47,7 +47,7 @@ RobustnessProblem at_random(Random& random, int contacts) {
   return problem;
 }
 
-// by how much the contact force farthest outside its bounds is outside
+// largest violation of a contact force's bounds
 double excess(const RobustnessProblem& p, const VectorXd& f,
               const std::vector<ContactHold>& states) {
   double worst = -1e300;
@@ -75,12 +75,13 @@ void each_state(int contacts, Act act) {
 
 }  // namespace
 
-TEST_CASE("six fingers on the faces of a cube are as robust as their formula says") {
+TEST_CASE("the robustness of six fingers on the faces of a cube equals the formula") {
   const std::vector<Vector3d> faces = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
                                        {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
   for (const double mu : {0.2, 0.5, 1.0}) {
     const RobustnessProblem problem = towards_origin(faces, mu);
-    // the force between the cone and the cap: sin(atan mu) f = cap - f, and G's least stretch is 2
+    // the force midway between cone and cap: sin(atan mu) f = cap - f, and the least stretch of G
+    // is 2
     const double slope = mu / std::sqrt(1 + mu * mu), margin = 10 * slope / (1 + slope);
     const Robustness found = contact_robustness(problem);
     CHECK(found.margin == doctest::Approx(margin).epsilon(1e-7));
@@ -112,7 +113,7 @@ TEST_CASE("disturbances within the radius leave every contact force inside its b
   CHECK(robust > 5);
 }
 
-TEST_CASE("the search over states finds what the enumeration of all finds") {
+TEST_CASE("the search over states finds the same maximum as the enumeration of all states") {
   Random random(6);
   for (int round = 0; round < 12; ++round) {
     const int contacts = 3 + round % 2;
@@ -128,7 +129,7 @@ TEST_CASE("the search over states finds what the enumeration of all finds") {
   }
 }
 
-TEST_CASE("a search that is cut short says what it may have missed") {
+TEST_CASE("a search with a limit reports a valid upper bound") {
   Random random(9);
   for (int round = 0; round < 4; ++round) {
     const RobustnessProblem problem = at_random(random, 5);
@@ -139,12 +140,12 @@ TEST_CASE("a search that is cut short says what it may have missed") {
       CHECK(found.most >= best * (1 - 1e-7));
     }
   }
-  // it ends in time, whatever the number of contacts
+  // it ends within the limit for any number of contacts
   const Robustness many = grasp_robustness(at_random(random, 25), 60);
   CHECK(many.most >= many.radius);
 }
 
-TEST_CASE("forces in another unit and contacts in another order change nothing else") {
+TEST_CASE("another unit of force and another order of contacts change nothing else") {
   Random random(7);
   RobustnessProblem problem = at_random(random, 5);
   while (contact_robustness(problem).radius == 0) problem = at_random(random, 5);
@@ -173,7 +174,7 @@ static void each_size(Visit visit) {
   }
 }
 
-TEST_CASE("friction, torque lengths and caps of any size, as the formula for six fingers says") {
+TEST_CASE("friction, torque lengths and caps of any size agree with the formula for six fingers") {
   const std::vector<Vector3d> faces = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
                                        {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
   const auto check = [](const RobustnessProblem& problem, double radius) {
@@ -184,7 +185,8 @@ TEST_CASE("friction, torque lengths and caps of any size, as the formula for six
   };
   const auto margin = [](double mu) { return 10 * mu / (mu + std::sqrt(1 + mu * mu)); };
   each_size([&](double x) {
-    // the margin is that of forces, whose least stretch is 2 or, of short lengths, the root of 6
+    // the margin is that of forces, whose least stretch is 2 or, for short torque lengths, the root
+    // of 6
     RobustnessProblem problem = towards_origin(faces, 0.5);
     problem.G.bottomRows<3>() *= x;
     check(problem, margin(0.5) * std::min(2 * x, std::sqrt(6.0)));
@@ -192,7 +194,7 @@ TEST_CASE("friction, torque lengths and caps of any size, as the formula for six
     problem = towards_origin(faces, 0.5);
     problem.max_force = x;
     check(problem, 2 * margin(0.5) * x / 10);
-    // forces between cone and cap: of a load too small to count, and of one too large to hold
+    // forces between cone and cap: for a negligible load, and for a load that is too large
     problem.load[2] = -1;
     const double found = contact_robustness(problem).radius, free = 2 * margin(0.5) * x / 10;
     CHECK(found <= free * (1 + 1e-7));
@@ -231,7 +233,7 @@ TEST_CASE("two fingers, or a load beyond the caps, are not robust") {
   CHECK(grasp_robustness(heavy).radius == 0);
 }
 
-TEST_CASE("what is out of range is refused by name") {
+TEST_CASE("arguments out of range are rejected by name") {
   const auto refused = [](auto change, const char* sentence) {
     RobustnessProblem problem = towards_origin({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}}, 0.5);
     change(problem);

@@ -1,5 +1,5 @@
 // Least contact forces as a semidefinite program, solved by DSDP: another formulation, another
-// method (dual scaling), another's code.
+// method (dual scaling) and an independent implementation.
 #include <doctest/doctest.h>
 #include <dsdp/dsdp5.h>
 
@@ -16,7 +16,7 @@ using test::wrench;
 
 namespace {
 
-// max b'y so that each block C - sum of A_i y_i is positive semidefinite
+// max b'y such that each block C - sum of A_i y_i is positive semidefinite
 class SemidefiniteProgram {
  public:
   SemidefiniteProgram(int unknowns, int blocks) : unknowns_(unknowns) {
@@ -25,8 +25,8 @@ class SemidefiniteProgram {
   }
   ~SemidefiniteProgram() { DSDPDestroy(solver_); }
 
-  // t(y) >= |v(y)|, each affine, a row (slope, constant): the arrow with t on its diagonal and v
-  // beside it
+  // t(y) >= |v(y)|, both affine, one row (slope, constant) each: the arrow matrix with t on its
+  // diagonal and v in the last row
   void arrow(const Eigen::RowVectorXd& t, const MatrixXd& v) {
     const int size = static_cast<int>(v.rows()) + 1;
     SDPConeSetBlockSize(cone_, block_, size);
@@ -51,7 +51,7 @@ class SemidefiniteProgram {
     ++block_;
   }
 
-  // a bracket of the largest b'y: what it reached, and what its dual proves
+  // a bracket of the largest b'y: the value reached, and the bound proved by the dual
   std::array<double, 2> maximize(const VectorXd& b) {
     for (int i = 0; i < unknowns_; ++i) DSDPSetDualObjective(solver_, i + 1, b[i]);
     DSDPSetGapTolerance(solver_, 1e-10);
@@ -69,7 +69,7 @@ class SemidefiniteProgram {
   int unknowns_, block_ = 0;
   DSDP solver_ = nullptr;
   SDPCone cone_ = nullptr;
-  // DSDP keeps pointers to them
+  // DSDP keeps pointers to these
   std::deque<std::vector<int>> places_;
   std::deque<std::vector<double>> values_;
 };
@@ -80,7 +80,7 @@ std::array<double, 2> min_forces(const Grasp& grasp, const Vector6d& load, doubl
   MatrixXd G = map.matrix;
   Vector6d w = load;
   G.bottomRows(3) /= grasp.rho, w.tail<3>() /= grasp.rho;
-  // forces f = span y + start, a row a force
+  // forces f = span y + start, one row per force
   const auto [kernel, start] = test::solutions(G, -w);
   MatrixXd f(map.forces(), kernel.cols() + 1);
   f << kernel, start;
@@ -105,7 +105,7 @@ std::array<double, 2> min_forces(const Grasp& grasp, const Vector6d& load, doubl
 
 }  // namespace
 
-TEST_CASE("least forces are those of a semidefinite program") {
+TEST_CASE("least forces equal those of a semidefinite program") {
   Random random(11);
   int held = 0, tight = 0;
   for (int run = 0; run < 60; ++run) {

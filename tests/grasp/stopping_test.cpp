@@ -1,4 +1,4 @@
-// Long calls that are requested to stop end, and leave no partial results behind.
+// Long calls end after a stop request, and leave no partial results behind.
 #include <doctest/doctest.h>
 
 #include "clench/base/error.h"
@@ -34,13 +34,14 @@ WrenchSpace ball_of(int count, int edges, WrenchNorm norm) {
 
 }  // namespace
 
-TEST_CASE("a wrench space that was stopped gives the same bits afterwards as one that was not") {
+TEST_CASE("a stopped wrench space later gives results bit-identical to those of a new one") {
   const auto watcher = std::make_shared<Silent>();
   const Progress progress(watcher);
   for (const auto norm : {WrenchNorm::l1, WrenchNorm::linf})
     for (const int edges : {6, round_edges}) {
       const int count = norm == WrenchNorm::l1 ? 8 : 4;
-      const bool measured = norm == WrenchNorm::l1 || edges != round_edges;  // else too many cells
+      // otherwise too many cells
+      const bool measured = norm == WrenchNorm::l1 || edges != round_edges;
       const WrenchSpace stopped = ball_of(count, edges, norm), fresh = ball_of(count, edges, norm);
       watcher->stop();
       CHECK_THROWS_AS(stopped.epsilon(progress), Stopped);
@@ -56,7 +57,7 @@ TEST_CASE("a wrench space that was stopped gives the same bits afterwards as one
     }
 }
 
-TEST_CASE("bounds of epsilon that were stopped hold") {
+TEST_CASE("bounds of epsilon are valid after a stop") {
   const auto watcher = std::make_shared<Silent>();
   const WrenchSpace space = ball_of(8, round_edges, WrenchNorm::l1);
   CHECK(space.is_force_closure());
@@ -69,7 +70,7 @@ TEST_CASE("bounds of epsilon that were stopped hold") {
   CHECK(space.epsilon() == epsilon);
 }
 
-TEST_CASE("a projection that is stopped is none") {
+TEST_CASE("a stopped projection has no result") {
   const auto watcher = std::make_shared<Silent>();
   watcher->stop();
   ProjectionOptions options{.projected = {3, 4, 5}};
@@ -80,18 +81,20 @@ TEST_CASE("a projection that is stopped is none") {
   CHECK(project(space, options).volume > 0);
 }
 
-TEST_CASE("a space of thousands of edges tells force closure soon, and checks at each direction") {
+TEST_CASE(
+    "force closure of thousands of edges is decided early, with a check for stops at each "
+    "direction") {
   const WrenchSpace space = ball_of(8, 200, WrenchNorm::l1);
   const Watched watched{Progress()};
   CHECK(space.is_force_closure());
   const uint64_t checks = watched.checks();
   CHECK(checks > 10);
   CHECK(checks < 2000);
-  // as the same cones of fewer edges do
+  // the same result as with fewer edges
   CHECK(ball_of(8, 8, WrenchNorm::l1).is_force_closure());
 }
 
-TEST_CASE("epsilon stops at any direction, and is then as if it had not") {
+TEST_CASE("epsilon stops at any direction, and later gives the same result as without a stop") {
   const WrenchSpace space = ball_of(6, 20, WrenchNorm::l1);
   for (const uint64_t at : {1, 10, 30}) {
     Watched watched{Progress()};
@@ -101,7 +104,7 @@ TEST_CASE("epsilon stops at any direction, and is then as if it had not") {
   CHECK(space.epsilon() == ball_of(6, 20, WrenchNorm::l1).epsilon());
 }
 
-TEST_CASE("contacts times edges are limited") {
+TEST_CASE("the product of contacts and edges is limited") {
   GraspSpec grasp;
   for (int i = 0; i < 101; ++i) grasp.points.push_back({});
   grasp.options.edges = 1000;

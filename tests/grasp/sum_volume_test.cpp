@@ -76,14 +76,14 @@ TEST_CASE("sums have the volume of the hull of all sums of points") {
   }
   const auto four = pyramids(random_contacts(random, 4, false), 3);
   CHECK(volume_of(four) == doctest::Approx(enumerated_volume(four)).epsilon(1e-10));
-  // a pair of soft ones, of few edges
+  // a pair of soft contacts with few edges
   auto soft = pyramids(random_contacts(random, 2, true), 8);
   for (Eigen::MatrixXd& s : soft) s = s.leftCols(12).eval();
   CHECK(volume_of(soft) == doctest::Approx(enumerated_volume(soft)).epsilon(1e-10));
 }
 
 TEST_CASE("products and parallel sums have the volumes of closed formulas") {
-  // boxes in subspaces of their own; a box and itself; segments
+  // boxes in complementary subspaces; a box and itself; segments
   Eigen::MatrixXd cube(6, 8), other(6, 8);
   cube.setZero(), other.setZero();
   for (int i = 0; i < 8; ++i)
@@ -96,12 +96,13 @@ TEST_CASE("products and parallel sums have the volumes of closed formulas") {
   for (int k = 0; k < 6; ++k) segments[k](k, 1) = k + 1;
   CHECK(volume_of(segments) == doctest::Approx(720));
   CHECK(sum_volume(segments, 0).end == SumVolume::too_many);
-  // flat but for 1e-4
+  // flat except for 1e-4
   segments[5](5, 1) = 6e-4;
   CHECK(volume_of(segments) == doctest::Approx(720e-4));
 }
 
-TEST_CASE("random pairs, triples and fours have one volume however they lie") {
+TEST_CASE(
+    "sums of two, three and four random contacts have the same volume in any position and order") {
   Random random(2);
   const auto check = [&](const std::vector<Eigen::MatrixXd>& summands) {
     const double volume = volume_of(summands);

@@ -1,6 +1,6 @@
-// Wrench sets of all kinds that are hard on hulls, for tests and benchmarks: symmetric, coplanar,
-// repeated, nearly repeated, flat, thin, marginal, of many sizes. Each is told by its kind and a
-// number.
+// Wrench sets of all kinds that are hard for hull algorithms, for tests and benchmarks: symmetric,
+// coplanar, repeated, nearly repeated, flat, thin, marginal, of many sizes. A kind and a number
+// identify each set.
 #pragma once
 #include <Eigen/Geometry>
 #include <cmath>
@@ -43,7 +43,7 @@ inline int pick(Random& random, int low, int high) {
   return low + static_cast<int>(random.bits() % static_cast<uint64_t>(high - low + 1));
 }
 
-/// A contact on something round of radius one, as a hand might press on it.
+/// A random contact on a roughly round object of radius one.
 inline PointContact random_contact(Random& random, double mu) {
   const Eigen::Vector3d n = random_unit_vector(random);
   return {.p_O = -n + 0.3 * random_unit_vector(random), .n_O = n, .mu = mu};
@@ -55,7 +55,7 @@ inline Wrenches random_normal_wrenches(Random& random, int count) {
   return out;
 }
 
-/// pressing on the unit ball from all directions
+/// contacts that press on the unit ball from the given directions
 inline std::vector<PointContact> ball_contacts(const std::vector<Eigen::Vector3d>& directions,
                                                double mu) {
   std::vector<PointContact> out;
@@ -73,7 +73,7 @@ inline std::vector<Eigen::Vector3d> ring_directions(int count) {
   return out;
 }
 
-/// the corners and the axes' ends that solids share: 4, 6 or 8 of them
+/// vertices of a tetrahedron, an octahedron or a cube: 4, 6 or 8 directions
 inline std::vector<Eigen::Vector3d> solid_directions(int count) {
   std::vector<Eigen::Vector3d> out;
   if (count == 6) {
@@ -88,7 +88,7 @@ inline std::vector<Eigen::Vector3d> solid_directions(int count) {
   return out;
 }
 
-/// four contacts on the corners of each of so many faces of a cube
+/// four contacts near the corners of each of `faces` faces of a cube
 inline std::vector<PointContact> box_contacts(int faces, double half, double mu) {
   std::vector<PointContact> out;
   for (int face = 0; face < faces; ++face) {
@@ -191,7 +191,7 @@ inline std::vector<Wrenches> wrench_set(int kind, uint64_t number) {
       break;
     }
     case 12: {
-      // the normals lean as far as friction allows, but for a little
+      // the normals are inclined by almost the friction angle
       const double lean = random.uniform(0, 0.5);
       const double off = std::pow(10, -random.uniform(3, 15)) * (pick(random, 0, 1) ? 1 : -1);
       std::vector<PointContact> contacts;

@@ -41,7 +41,7 @@ Wrenches all_of(const WrenchSpace& space) {
 
 // Brute-force reference: every hyperplane through six of the points that has all others on one
 // side.
-// returns the least offset; 0 when the origin is not strictly inside
+// returns  the least offset; 0 if the origin is not strictly inside
 double slow_epsilon(const Wrenches& points) {
   const int n = static_cast<int>(points.cols());
   double least = std::numeric_limits<double>::infinity();
@@ -62,7 +62,7 @@ double slow_epsilon(const Wrenches& points) {
     const Vector6d normal = *across_all;
     const double offset = normal.dot(points.col(first));
     const Eigen::RowVectorXd beyond = (normal.transpose() * points).array() - offset;
-    // points on the plane are off it by rounding only
+    // points on the plane deviate from it by rounding only
     if (beyond.maxCoeff() <= 1e-9) least = std::min(least, offset);
     if (beyond.minCoeff() >= -1e-9) least = std::min(least, -offset);
   } while (std::prev_permutation(chosen.begin(), chosen.end()));
@@ -79,7 +79,7 @@ void check_sound_cheaply(const WrenchSpace& space) {
   CHECK(space.epsilon() <= size);
   CHECK(space.is_force_closure() == (space.epsilon() > 0));
   CHECK(space.weakest().direction.norm() == doctest::Approx(1).epsilon(1e-12));
-  // what the contacts can do against it at most is the resistance that is claimed
+  // the resistance equals the maximal wrench of the contacts against the weakest direction
   const Vector6d answer = -space.weakest().direction;
   const double reach = all.cols() > 0 ? (answer.transpose() * all).maxCoeff() : 0;
   if (space.rank() == 6) {
@@ -95,14 +95,14 @@ void check_sound_cheaply(const WrenchSpace& space) {
   }
 }
 
-// and what holds for each facet
+// additional properties of each facet
 void check_sound(const WrenchSpace& space) {
   check_sound_cheaply(space);
   const Wrenches all = all_of(space);
   const double size = all.size() > 0 ? all.colwise().norm().maxCoeff() : 0;
   if (space.is_force_closure()) CHECK(space.volume() > 0);
   if (space.rank() < 6) CHECK(space.volume() == 0);
-  // no facet cuts a point off
+  // no point is beyond a facet
   const Hull hull = space.hull();
   for (int f = 0; f < hull.normals.cols(); ++f)
     CHECK((hull.normals.col(f).transpose() * all).maxCoeff() <= hull.offsets[f] + 1e-10 * size);
@@ -140,7 +140,7 @@ std::vector<Wrenches> contacts_of(const nlohmann::json& measured) {
   return out;
 }
 
-// where the original's contacts are, in units of its torque scale
+// contacts of the original, in units of its torque scale
 std::vector<PointContact> points_of(const nlohmann::json& measured) {
   std::vector<PointContact> out;
   const auto vector = [](const nlohmann::json& x) {
@@ -161,7 +161,7 @@ TEST_CASE("opposed unit pushes along all six axes: epsilon 1/sqrt 6, volume 2^6/
   CHECK(space.rank() == 6);
   CHECK(space.epsilon() == doctest::Approx(1 / std::sqrt(6.0)).epsilon(1e-12));
   CHECK(space.volume() == doctest::Approx(64.0 / 720).epsilon(1e-12));
-  // the weakest wrench takes equal parts of all six
+  // the weakest wrench has equal components along all six axes
   CHECK((space.weakest().direction.cwiseAbs().array() - 1 / std::sqrt(6.0)).abs().maxCoeff() <
         1e-12);
   check_sound(space);
@@ -177,7 +177,7 @@ TEST_CASE("a cube of wrenches: epsilon is half its side") {
   check_sound(space);
 }
 
-TEST_CASE("axes pushed with different strength: epsilon by the distance of a plane") {
+TEST_CASE("axes pushed with different strength: epsilon is the distance of a plane") {
   Wrenches w = cross_polytope();
   double sum = 0;
   for (int i = 0; i < 6; ++i) {
@@ -194,16 +194,17 @@ TEST_CASE("the original's wrench sets give the exact hull's epsilon and volume")
   int compared = 0;
   const auto sets = test::measured("gws_exact_check");
   for (const auto& [name, exact] : sets.items()) {
-    // of the others the wrenches are not written down
+    // for other sets no wrenches are recorded
     if (!std::filesystem::exists(shared() / "reference" / ("autograsp_" + name + ".json")))
       continue;
     CAPTURE(name);
     const WrenchSpace space(contacts_of(test::measured("autograsp_" + name)));
     const auto& expected = exact["Qt_no_joggle"];
-    // -1 there says no force closure
+    // -1 in these data means no force closure
     CHECK(std::abs(space.epsilon() - std::max(0.0, expected["epsilon"].get<double>())) < 1e-9);
     CHECK(std::abs(space.volume() - expected["volume"].get<double>()) < 1e-9);
-    // without force closure the hull lies beyond its distance, which is beyond each of its planes
+    // without force closure, the distance of the hull from the origin is at least that of each of
+    // its planes
     const double offset = expected["min_offset"].get<double>();
     if (space.is_force_closure())
       CHECK(std::abs(space.weakest().resistance - offset) < 1e-9);
@@ -216,12 +217,12 @@ TEST_CASE("the original's wrench sets give the exact hull's epsilon and volume")
   CHECK(compared == 3);
 }
 
-TEST_CASE("real contacts, made soft, as the exact hull says, up to 25 of them") {
+TEST_CASE("real contacts, made soft, agree with the exact hull, up to 25 of them") {
   REQUIRE_SHARED();
   std::vector<std::vector<PointContact>> grasps;
   for (const std::string name : {"dlr_flask", "barrett_flask_bestSA", "plannerMug"})
     grasps.push_back(points_of(test::measured("autograsp_" + name)));
-  // one hand thrice around, and a finger of another
+  // three rotated copies of one hand, and a finger of another
   const Eigen::Vector3d z = Vector3d::UnitZ();
   std::vector<PointContact> many = {grasps[1][0]};
   for (int i = 0; i < 3; ++i)
@@ -243,7 +244,7 @@ TEST_CASE("real contacts, made soft, as the exact hull says, up to 25 of them") 
     CHECK(std::abs(space.epsilon() - std::max(0.0, hull.offsets.minCoeff())) < 1e-9);
     CHECK(std::abs(space.volume() - hull.volume) < 1e-9);
     CHECK(space.is_force_closure() == (hull.offsets.minCoeff() > 1e-12));
-    // the soft ones hold the hard ones
+    // the soft contacts contain the hard ones
     for (PointContact& c : grasp) c.torsion_radius = 0;
     CHECK(space.epsilon() >=
           WrenchSpace(wrenches_of(grasp, grasp.size() > 10 ? 4 : 8)).epsilon() - 1e-12);
@@ -286,7 +287,7 @@ TEST_CASE("turning, permuting, repeating and regrouping wrenches changes nothing
   for (int trial = 0; trial < 5; ++trial) {
     const WrenchSpace space(ball_grasp(tetrahedron, 0.2 + 0.2 * trial, 8));
     const Wrenches all = all_of(space);
-    // rounding of 6 x 6 turns and of qhull's planes
+    // rounding of 6 x 6 rotations and of qhull's planes
     const auto same = [&](const Wrenches& w) {
       const WrenchSpace other({w});
       CHECK(std::abs(other.epsilon() - space.epsilon()) < 1e-12);
@@ -308,7 +309,7 @@ TEST_CASE("turning, permuting, repeating and regrouping wrenches changes nothing
   }
 }
 
-TEST_CASE("size does not matter: epsilon scales with the wrenches, over all magnitudes") {
+TEST_CASE("epsilon scales with the wrenches, over all magnitudes") {
   const WrenchSpace one({cross_polytope()});
   for (const double scale : {1e-300, 1e-100, 1e-9, 1e9, 1e100, 1e300}) {
     const WrenchSpace space({scale * cross_polytope()});
@@ -316,12 +317,14 @@ TEST_CASE("size does not matter: epsilon scales with the wrenches, over all magn
     CHECK(space.epsilon() == doctest::Approx(scale * one.epsilon()).epsilon(1e-12));
     CHECK(space.is_force_closure());
   }
-  // numbers too small to have all their digits
+  // denormal numbers, which have reduced precision
   const WrenchSpace tiny({std::numeric_limits<double>::denorm_min() * cross_polytope()});
   CHECK(tiny.rank() == 6);
 }
 
-TEST_CASE("no contact, no wrench, one wrench, zero wrenches: nothing is resisted, nothing fails") {
+TEST_CASE(
+    "spaces of no contact, no wrench, one wrench or zero wrenches resist nothing, without an "
+    "error") {
   for (const auto& contacts : std::vector<std::vector<Wrenches>>{
            {}, {Wrenches(6, 0)}, {Wrenches::Zero(6, 1)}, {Wrenches::Zero(6, 40), Wrenches(6, 0)}}) {
     const WrenchSpace space(contacts);
@@ -334,7 +337,8 @@ TEST_CASE("no contact, no wrench, one wrench, zero wrenches: nothing is resisted
 }
 
 TEST_CASE(
-    "sets below rank six have their rank, and the weakest direction is one they do not span") {
+    "sets below rank six report their rank, and the weakest direction is one that they do not "
+    "span") {
   Random random(4);
   for (int rank = 1; rank <= 5; ++rank)
     for (int trial = 0; trial < 40; ++trial) {
@@ -350,7 +354,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("two hard fingers cannot turn the object about their line") {
+TEST_CASE("two hard fingers cannot turn the object about their common line") {
   const WrenchSpace space(ball_grasp({{1, 0, 0}, {-1, 0, 0}}, 0.5, 8));
   CHECK(space.rank() == 5);
   CHECK(space.epsilon() == 0);
@@ -358,8 +362,9 @@ TEST_CASE("two hard fingers cannot turn the object about their line") {
   CHECK((space.weakest().direction - Vector6d::Unit(3)).norm() < 1e-12);
 }
 
-TEST_CASE("the weakest wrench is one from outside: a finger below cannot hold what pulls up") {
-  // pushes all up, and in every other direction both ways
+TEST_CASE(
+    "the weakest wrench is an external one: a finger below cannot hold a load that pulls up") {
+  // all pushes have an upward component, and there are both signs in every other direction
   Wrenches w(6, 11);
   w.col(0) = Vector6d::Unit(2);
   int column = 1;
@@ -374,7 +379,7 @@ TEST_CASE("the weakest wrench is one from outside: a finger below cannot hold wh
   CHECK(space.weakest().resistance == doctest::Approx(-1));
   check_sound(space);
 
-  // one wrench shorter: a full hull, still all upwards
+  // one shorter wrench: a full hull, but all wrenches still push upwards
   w.col(0) *= 0.5;
   const WrenchSpace full({w});
   CHECK(full.hull().full());
@@ -383,7 +388,7 @@ TEST_CASE("the weakest wrench is one from outside: a finger below cannot hold wh
   CHECK(full.weakest().resistance < 0);
   check_sound(full);
 
-  // held from above by a weaker finger: pulling up is resisted, but worst of all
+  // held from above by a weaker finger: pulling up is resisted, but least of all directions
   Wrenches held(6, 12);
   held << 10 * cross_polytope();
   held.col(8) = -0.1 * Vector6d::Unit(2);
@@ -394,7 +399,7 @@ TEST_CASE("the weakest wrench is one from outside: a finger below cannot hold wh
   check_sound(weak);
 }
 
-// the point of a hull nearest to the origin, step by step towards the wrench that leads back most
+// distance of a hull from the origin, by steps towards the wrench most opposed to the current point
 double slow_distance(const Wrenches& points) {
   Vector6d at = points.col(0);
   for (int step = 0; step < 200000; ++step) {
@@ -409,7 +414,7 @@ double slow_distance(const Wrenches& points) {
 }
 
 TEST_CASE(
-    "without force closure the weakest wrench leads away from the nearest point of the hull") {
+    "without force closure the weakest wrench points away from the nearest point of the hull") {
   Random random(21);
   int outside = 0;
   for (int trial = 0; trial < 12; ++trial) {
@@ -424,11 +429,11 @@ TEST_CASE(
     const double distance = slow_distance(all_of(space));
     if (distance < 1e-3) continue;
     ++outside;
-    // steps come near like their inverse
+    // the error decreases with the inverse of the number of steps
     CHECK(space.weakest().resistance == doctest::Approx(-distance).epsilon(1e-3));
     CHECK(space.weakest().resistance >= -distance - 1e-9);
     check_sound_cheaply(space);
-    // where each contact may rest, nothing need push along
+    // in L-infinity each contact may have zero force, so the resistance is 0
     const WrenchSpace each(wrenches_of(contacts, 8), {.norm = WrenchNorm::linf});
     CHECK((each.weakest().direction - space.weakest().direction).norm() < 1e-6);
     CHECK(each.weakest().resistance == 0);
@@ -438,7 +443,7 @@ TEST_CASE(
 }
 
 TEST_CASE("an origin on the boundary is not inside: epsilon is exactly 0") {
-  // half a cross polytope, with the origin among its points or on its face
+  // half a cross polytope, with the origin as one of its points or on its face
   Random random(5);
   for (int trial = 0; trial < 20; ++trial) {
     Wrenches half(6, 12);
@@ -452,19 +457,20 @@ TEST_CASE("an origin on the boundary is not inside: epsilon is exactly 0") {
   }
 }
 
-TEST_CASE("without friction a ball cannot be kept from turning, with it four fingers hold it") {
+TEST_CASE(
+    "without friction a ball cannot be kept from turning, and with friction four fingers hold it") {
   CHECK(WrenchSpace(ball_grasp(tetrahedron, 0, 8)).rank() == 3);
   double last = 0;
   for (const double mu : {0.1, 0.3, 1.0, 3.0}) {
     const WrenchSpace space(ball_grasp(tetrahedron, mu, 8));
     CHECK(space.is_force_closure());
-    CHECK(space.epsilon() > last);  // more friction, more grip
+    CHECK(space.epsilon() > last);  // more friction, more resistance
     last = space.epsilon();
     check_sound(space);
   }
 }
 
-TEST_CASE("a grasp twice the size is the same grasp") {
+TEST_CASE("a grasp twice the size has the same wrench space") {
   const WrenchSpace small(ball_grasp(tetrahedron, 0.5, 8, 0.01)),
       large(ball_grasp(tetrahedron, 0.5, 8, 2));
   CHECK(std::abs(small.epsilon() - large.epsilon()) < 1e-12);
@@ -503,7 +509,7 @@ TEST_CASE("structured sets never fail: lattices, repeats, near repeats, thin set
   }
 }
 
-TEST_CASE("a number that is not finite is refused by its place") {
+TEST_CASE("a number that is not finite is rejected with its place") {
   Wrenches good = cross_polytope(), bad = good;
   bad(3, 4) = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH_AS(WrenchSpace({good, bad}),
@@ -523,7 +529,7 @@ std::vector<UnitWrenches> cones(const std::vector<PointContact>& contacts, int e
   return out;
 }
 
-// all sums of one wrench or none of each contact
+// all sums of at most one wrench per contact
 Wrenches enumerated(const std::vector<Wrenches>& contacts) {
   Wrenches sums = Wrenches::Zero(6, 1);
   for (const Wrenches& w : contacts) {
@@ -544,7 +550,7 @@ std::vector<PointContact> soft_pinch(double torsion_radius) {
 
 }  // namespace
 
-TEST_CASE("L-infinity has the epsilon and volume of all sums, one by one") {
+TEST_CASE("L-infinity has the epsilon and volume of an enumeration of all sums") {
   Random random(11);
   for (int trial = 0; trial < 12; ++trial) {
     std::vector<PointContact> contacts(3);
@@ -561,7 +567,8 @@ TEST_CASE("L-infinity has the epsilon and volume of all sums, one by one") {
 }
 
 TEST_CASE(
-    "without friction L-infinity is a zonotope: the volumes of all sixes of wrenches add up") {
+    "without friction the L-infinity space is a zonotope, whose volume is a sum over sets of six "
+    "wrenches") {
   Random random(12);
   for (int trial = 0; trial < 5; ++trial) {
     const int count = 7 + trial % 3;
@@ -582,7 +589,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("round cones hold every pyramid, and are what more and more edges come to") {
+TEST_CASE("round cones contain every pyramid, and are the limit of many edges") {
   Random random(13);
   for (int trial = 0; trial < 10; ++trial)
     for (const WrenchNorm norm : {WrenchNorm::l1, WrenchNorm::linf}) {
@@ -598,13 +605,13 @@ TEST_CASE("round cones hold every pyramid, and are what more and more edges come
       for (const int edges : {3, 8, 64, 512}) {
         const double epsilon = WrenchSpace(cones(contacts, edges), {.norm = norm}).epsilon();
         CHECK(epsilon <= round.epsilon() + 1e-9);
-        // a pyramid of n edges holds the cone shrunk by cos(pi / n)
+        // a pyramid of n edges contains the cone shrunk by cos(pi / n)
         if (edges == 512) CHECK(epsilon > round.epsilon() - 1e-3);
       }
     }
 }
 
-TEST_CASE("a bracket tightens with its tolerance, and at_least is enough to end it") {
+TEST_CASE("a bracket narrows with its tolerance, and at_least stops the computation early") {
   const WrenchSpace space(cones(ball_contacts(solid_directions(6), 0.6), round_edges));
   for (const double tolerance : {1e-1, 1e-3, 1e-5, 1e-8}) {
     const EpsilonBounds bounds = space.epsilon_bounds({.tolerance = tolerance});
@@ -619,7 +626,7 @@ TEST_CASE("a bracket tightens with its tolerance, and at_least is enough to end 
     CHECK(bounds.lower <= epsilon + 1e-12);
     CHECK(bounds.upper >= epsilon - 1e-9);
     CHECK((bounds.lower >= part * epsilon) == (part < 1));
-    // and what was asked before does not matter
+    // and earlier queries do not matter
     CHECK(std::abs(fresh.epsilon() - epsilon) < 2e-9);
   }
   const WrenchSpace nothing(cones(ball_contacts({{1, 0, 0}}, 1), 8));
@@ -630,7 +637,7 @@ TEST_CASE("a bracket tightens with its tolerance, and at_least is enough to end 
                        "wrench space: at_least must be finite, got inf", Error);
 }
 
-TEST_CASE("two soft fingers hold what two hard ones let turn, and better with larger patches") {
+TEST_CASE("two soft fingers hold torques that two hard ones do not, and more with larger patches") {
   double last = 0;
   for (const double radius : {0.0, 0.01, 0.1, 0.5})
     for (const int edges : {8, round_edges}) {
@@ -641,13 +648,13 @@ TEST_CASE("two soft fingers hold what two hard ones let turn, and better with la
       CHECK((radius == 0 || space.epsilon() > last));
       last = space.epsilon();
     }
-  // the turn about the line is resisted by both patches: mu times the radius
+  // both patches resist the rotation about the line: mu times the radius
   const WrenchSpace small(cones(soft_pinch(0.01), round_edges));
   CHECK(std::abs(small.epsilon() - 0.5 * 0.01) < 1e-6);
   CHECK(std::abs(small.weakest().direction[3]) == doctest::Approx(1).epsilon(1e-3));
 }
 
-TEST_CASE("the weakest direction names the contacts that give way first") {
+TEST_CASE("the weakest direction names the contacts that yield first") {
   // strong fingers along x and y, weak ones along z
   std::vector<Wrenches> contacts;
   for (int axis = 0; axis < 6; ++axis)
@@ -665,7 +672,7 @@ TEST_CASE("the weakest direction names the contacts that give way first") {
   CHECK(WrenchSpace({cross_polytope().leftCols(3)}).weakest().contacts.empty());
 }
 
-TEST_CASE("only the coordinates that count are looked at") {
+TEST_CASE("only the selected coordinates are evaluated") {
   Random random(14);
   const Wrenches all = random_wrenches(random, 30);
   for (const std::vector<int>& coordinates :
@@ -689,14 +696,13 @@ TEST_CASE("only the coordinates that count are looked at") {
   refuse({0, 1, 0}, "wrench space: coordinate 0 is there twice");
 }
 
-TEST_CASE(
-    "size, place, turns, order and doubled contacts change no measure, whatever the contacts") {
+TEST_CASE("size, position, rotation, order and duplicated contacts change no measure") {
   Random random(15);
   for (int trial = 0; trial < 12; ++trial) {
     const WrenchNorm norm = trial % 2 ? WrenchNorm::linf : WrenchNorm::l1;
     const int edges = trial % 4 < 2 ? 8 : round_edges;
     const bool round = edges == round_edges;
-    // hard, soft, of both kinds, and with one that has no friction
+    // hard contacts, soft contacts, both kinds, and with a frictionless contact
     std::vector<PointContact> contacts(4);
     for (PointContact& c : contacts) c = random_contact(random, 0.8);
     if (trial % 3 == 0) contacts = ball_contacts(solid_directions(4), 0.5);
@@ -712,7 +718,7 @@ TEST_CASE(
     };
     const auto measure = [&](const std::vector<UnitWrenches>& cones) {
       const WrenchSpace space(cones, {.norm = norm});
-      // the hulls of L-infinity are large, and round cones have theirs elsewhere
+      // hulls of L-infinity are large, and volumes of round cones are tested separately
       const double volume = norm == WrenchNorm::l1 && !round ? space.volume() : 0;
       return Measured{space.epsilon(), volume, space.is_force_closure(),
                       space.weakest().contacts.size()};
@@ -724,7 +730,7 @@ TEST_CASE(
     };
     const auto as_they_are = cones_at(contacts, {.edges = edges});
     const Measured one = measure(as_they_are);
-    // round cones are known to 1e-9, sums of five contacts to five times 1e-12
+    // round cones are accurate to 1e-9, sums of five contacts to five times 1e-12
     const double close = round ? 3e-9 : 1e-11;
     const auto same = [&](const std::vector<UnitWrenches>& cones, double times = 1) {
       const Measured other = measure(cones);
@@ -733,14 +739,15 @@ TEST_CASE(
       CHECK(other.closes == one.closes);
     };
 
-    // another unit of length, with torques over the same length in it; another place of all
+    // another unit of length, with torques divided by the same length in it; another position of
+    // all contacts
     for (const double size : {1e-3, 2.0, 1e3}) {
       const Vector3d at = size * random_unit_vector(random);
       std::vector<PointContact> other = contacts;
       for (PointContact& c : other) c.p_O = size * c.p_O + at, c.torsion_radius *= size;
       same(cones_at(other, {.edges = edges, .rho = size, .p_OM = at}));
     }
-    // pyramids turn with their contacts, round cones need not be told
+    // pyramids are rotated with their contacts, round cones are computed from rotated contacts
     const Eigen::Matrix3d turn =
         Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal())
             .normalized()
@@ -765,7 +772,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("volumes of round cones lie in brackets that close as pyramids get finer") {
+TEST_CASE("volumes of round cones lie in brackets that narrow with finer pyramids") {
   // forces of two opposed contacts: in L1 a cylinder
   const double mu = 0.6, pi = std::numbers::pi;
   const auto opposed = ball_contacts({{0, 0, 1}, {0, 0, -1}}, mu);
@@ -794,7 +801,7 @@ TEST_CASE("volumes of round cones lie in brackets that close as pyramids get fin
   // soft: an ellipsoid of forces across and torques about the normal
   check(forces(WrenchNorm::l1, {0, 1, 5}, 0.3), 4.0 / 3 * pi * mu * mu * mu * 0.3, 0.02);
 
-  // six dimensions: within what fine pyramids say
+  // six dimensions: bracketed by fine pyramids
   Random random(16);
   std::vector<PointContact> contacts(3);
   for (PointContact& c : contacts) c = random_contact(random, 0.8);
@@ -809,7 +816,7 @@ TEST_CASE("volumes of round cones lie in brackets that close as pyramids get fin
   CHECK(WrenchSpace(cones(contacts, 48)).volume() < bounds.upper);
   CHECK(round.volume_bounds(48).lower > bounds.lower);
   CHECK(round.volume_bounds(48).upper < bounds.upper);
-  // pyramids have a volume, and so have flat spaces
+  // pyramids have an exact volume, and so have flat spaces
   const WrenchSpace edged(cones(contacts, 8));
   CHECK(edged.volume_bounds().lower == edged.volume());
   CHECK(edged.volume_bounds().upper == edged.volume());
@@ -820,7 +827,7 @@ TEST_CASE("volumes of round cones lie in brackets that close as pyramids get fin
         fmt::format("wrench space: edges must be 4 to 1000, got {}", edges).c_str(), Error);
 }
 
-TEST_CASE("hulls that do not exist or are too large are refused") {
+TEST_CASE("hulls that do not exist or are too large are rejected") {
   const WrenchSpace round(cones(ball_contacts(solid_directions(4), 0.5), round_edges));
   CHECK_THROWS_WITH_AS(round.hull(), "wrench space: no hull of points with round cones, give edges",
                        Error);
@@ -845,7 +852,7 @@ TEST_CASE("hulls that do not exist or are too large are refused") {
                        Error);
 }
 
-TEST_CASE("hard sets of every kind give a bracket that is closed, and L-infinity at least L1") {
+TEST_CASE("hard sets of every kind give a converged bracket, and L-infinity is at least L1") {
   for (int kind = 0; kind < wrench_set_kinds; ++kind)
     for (uint64_t number = 100; number < 160; ++number) {
       CAPTURE(wrench_set_kind(kind));

@@ -21,12 +21,14 @@ Vector6d reach_direction(Random& random) {
   return u.normalized();
 }
 
-// a little more than rounding of six products
+// slightly more than the rounding error of six products
 constexpr double rounding = 1e-14;
 
 }  // namespace
 
-TEST_CASE("L1 reaches as far as the farthest wrench, L-infinity as far as the farthest sum") {
+TEST_CASE(
+    "the support of L1 is that of the farthest wrench, and of L-infinity that of the farthest "
+    "sum") {
   Random random(1);
   for (int trial = 0; trial < 30; ++trial) {
     std::vector<PointContact> contacts(1 + trial % 4);
@@ -35,7 +37,7 @@ TEST_CASE("L1 reaches as far as the farthest wrench, L-infinity as far as the fa
     const Wrenches all = side_by_side(set);
     const WrenchSupport l1(6, WrenchNorm::l1, parts_of(set)),
         linf(6, WrenchNorm::linf, parts_of(set));
-    // all sums of one wrench or none of each contact
+    // all sums of at most one wrench per contact
     Wrenches sums = Wrenches::Zero(6, 1);
     for (const Wrenches& w : set) {
       Wrenches next(6, sums.cols() * (w.cols() + 1));
@@ -59,7 +61,7 @@ TEST_CASE("L1 reaches as far as the farthest wrench, L-infinity as far as the fa
   }
 }
 
-TEST_CASE("a round part reaches as far as very many points on it") {
+TEST_CASE("the support of a round part agrees with a dense sample of points") {
   Random random(2);
   for (const double torsion : {0.0, 0.3}) {
     PointContact contact = random_contact(random, 0.7);
@@ -74,10 +76,10 @@ TEST_CASE("a round part reaches as far as very many points on it") {
       Vector6d p;
       const double most = reach.support(u.data(), p.data());
       CHECK(std::abs(u.dot(p) - most) < rounding);
-      // the point is one of the cone
+      // the support point belongs to the cone
       Eigen::VectorXd x(cone.spread.cols()), rest = p - cone.axis;
       for (int k = 0; k < x.size(); ++k) {
-        // tangents are told apart by their forces, the turn by what is left
+        // tangents are identified by their forces, and torsion by the rest
         const int rows = k < 2 ? 3 : 6;
         const auto column = cone.spread.col(k).head(rows);
         x[k] = column.dot(rest.head(rows)) / column.squaredNorm();
@@ -92,13 +94,13 @@ TEST_CASE("a round part reaches as far as very many points on it") {
         sampled = std::max(sampled, u.dot(cone.axis + cone.spread * y.normalized()));
       }
       CHECK(sampled <= most + rounding);
-      // 3000 points on a sphere leave gaps of some tenth
+      // 3000 points on a sphere leave gaps of about a tenth
       CHECK(sampled > most - 0.02);
     }
   }
 }
 
-TEST_CASE("a direction that no contact pushes along is reached by nothing in L-infinity") {
+TEST_CASE("in L-infinity the support is 0 in a direction that no contact pushes along") {
   const Wrenches up = Vector6d::Unit(2);
   const ContactPart part{.points = up.data(), .count = 1};
   const WrenchSupport reach(6, WrenchNorm::linf, std::span(&part, 1));

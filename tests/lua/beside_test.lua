@@ -1,8 +1,8 @@
--- Jobs, the loop, a session's planner and pictures at once: for the sanitizer of threads, and for the bits.
+-- Jobs, the loop, a session's planner and pictures at the same time: for the thread sanitizer, and for bit-identical results.
 local test, clench = require "test", require "clench"
 local loop = clench.loop
 
-test("four jobs, coroutines, a planner and pictures beside each other give what each gives alone", function(t)
+test("four jobs, coroutines, a planner and pictures give the same results in parallel as separately", function(t)
   local world = clench.load("worlds/barrett_mug.wld", {root = "."})
   local hand = world.robots[1]
   local function close(h, steps)

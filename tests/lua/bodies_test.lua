@@ -1,7 +1,7 @@
--- Bodies made from tables, and what is said of those that look wrong.
+-- Bodies made from tables, and messages about suspicious ones.
 local test, clench = require "test", require "clench"
 
--- runs fn, gives what is logged meanwhile and what fn returned
+-- runs fn; returns the messages logged meanwhile and fn's result
 local function told(fn)
   local said = {}
   clench.log.sink(function(_, text, about) said[#said + 1] = ("%s %s"):format(about, text) end)
@@ -26,7 +26,7 @@ test("a triangle that names a vertex twice is left out and counted", function(t)
           "expected at least one triangle, got none")
 end)
 
-test("a body without area, and objects of a size that no hand grasps, are suspicious", function(t)
+test("a body without area, and objects too small or too large for any hand, are suspicious", function(t)
   local function doubts(mesh, method)
     local world = clench.world()
     return (told(function() return world[method or "add_object"](world, mesh) end))
@@ -43,7 +43,7 @@ test("a body without area, and objects of a size that no hand grasps, are suspic
   t.equal(doubts(clench.shapes.box {100, 20, 30}, "add_obstacle"), {})
 end)
 
-test("masses, moduli and gravity in another unit are told once", function(t)
+test("masses, moduli and gravity in another unit are reported once", function(t)
   local world = clench.world()
   local box = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "box"})
   -- without the script's line
@@ -67,7 +67,7 @@ test("masses, moduli and gravity in another unit are told once", function(t)
   end), {})
 end)
 
-test("a number is both coefficients of friction", function(t)
+test("a number sets both coefficients of friction", function(t)
   local world = clench.world()
   world:set_friction("cork", "glass", 0.4)
   t.equal({world:friction("glass", "cork")}, {0.4, 0.4})
@@ -75,7 +75,7 @@ test("a number is both coefficients of friction", function(t)
   t.fails(function() world:set_friction("cork", "glass", 0 / 0) end, "friction: expected a finite number, got nan")
 end)
 
-test("vertices lie within a thousand million meters", function(t)
+test("vertices must be within a thousand million meters", function(t)
   local far = {{0, 0, 0}, {0.1, 0, 0}, {0, -1.1e9, 0}, {0, 0, 0.1}}
   t.fails(function() clench.world():add_object {vertices = far, triangles = faces} end,
           "mesh: vertex 3: coordinates: expected a number from -1e+09 to 1e+09 [m], got -1100000000")
@@ -83,7 +83,7 @@ test("vertices lie within a thousand million meters", function(t)
   t.ok(clench.world():add_obstacle {vertices = far, triangles = faces}.mesh:is_watertight())
 end)
 
-test("a list has no names: braces that were forgotten are told", function(t)
+test("names in a list are reported, with a hint at missing braces", function(t)
   t.fails(function() clench.vec3 {x = 1, y = 2, z = 3} end, "expected 3 numbers, got a table with the key 'x'")
   t.fails(function() clench.vec3 {1, 2, 3, w = 4} end, "expected 3 numbers, got a table with the key 'w'")
   t.fails(function() clench.vec3 {1, 2, 3, [0] = 4} end, "got a table with the key [0]")
@@ -99,7 +99,7 @@ test("a list has no names: braces that were forgotten are told", function(t)
           "expected a list of tables, got a table with the key 'point'")
 end)
 
-test("masses and friction have an upper end", function(t)
+test("masses and friction have an upper limit", function(t)
   local world = clench.world()
   t.fails(function() world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {mass = 1e308}) end,
           "mass: expected a number from 1e-12 to 1e+12 [kg], got 1e+308")
@@ -113,7 +113,7 @@ test("masses and friction have an upper end", function(t)
           "mu: expected a number from 0 to 1e+06, got 1e+40")
 end)
 
-test("an inertia that no body has is refused", function(t)
+test("an impossible inertia is rejected", function(t)
   local odd = {{1, 0, 0}, {0, 1, 0}, {0, 0, 3}}
   local tail = "inertia: expected no moment above the sum of the others, got one of 1.5 times that sum"
   local world = clench.world()
@@ -125,7 +125,7 @@ test("an inertia that no body has is refused", function(t)
   t.close(box.inertia[3][3], 2, 1e-12)
 end)
 
-test("contacts of a body that was removed can still be printed", function(t)
+test("contacts of a removed body can still be printed", function(t)
   local world = clench.world()
   local a = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "a"})
   local b = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "b", pose = {xyz = {0.10005, 0, 0}}})
@@ -137,7 +137,7 @@ test("contacts of a body that was removed can still be printed", function(t)
   t.ok(tostring(contact):find "contact of a removed body on a removed body at")
 end)
 
-test("surplus arguments are refused by every method", function(t)
+test("surplus arguments are rejected by every method", function(t)
   local world = clench.load("worlds/barrett_mug.wld", {root = "."})
   local hand, mug = world.robots[1], world.objects[1]
   hand:autograsp()
@@ -159,14 +159,14 @@ test("surplus arguments are refused by every method", function(t)
   t.ok(tried > 40, "tried " .. tried)
 end)
 
-test("what is expected is named with its article", function(t)
+test("expected types are named with their article", function(t)
   local hand = clench.world():add_robot "models/hands/barrett/barrett.cfg"
   t.fails(function() hand.eigengrasps.amplitudes(hand) end, "expected eigengrasps before the colon, got a robot")
   t.fails(function() clench.eigengrasps {postures = {{1, 2}, {2, 1}}, vectors = {{1, 0}}} end,
           "clench.eigengrasps: expected postures or vectors, got both")
 end)
 
-test("the mesh of a body is one for others", function(t)
+test("the mesh of a body can be used for other bodies", function(t)
   local world = clench.world()
   local cube = world:add_object(clench.shapes.box {0.02, 0.03, 0.04}, {mass = 1})
   local copy = world:add_object(cube.mesh, {mass = 1, mesh_scale = 2, pose = {xyz = {1, 0, 0}}})

@@ -1,4 +1,4 @@
--- every request of a script ends soon, with a result or an error sentence
+-- every request of a script ends soon, with a result or an error message
 local test, clench = require "test", require "clench"
 
 -- a hand that holds a flask
@@ -9,7 +9,7 @@ local function held()
   return world, hand, flask
 end
 
-test("a patch of any radius is fitted or refused", function(t)
+test("a patch of any radius is fitted or rejected", function(t)
   clench.log.sink(function() end)
   -- the corners of a cube on a plate share one patch, 5 mm across
   local world = clench.world()
@@ -41,7 +41,7 @@ local function memory()
   end
 end
 
-test("what values own is collected: memory stays flat", function(t)
+test("memory owned by values is collected: memory use stays constant", function(t)
   local world, hand, flask = held()
   local set = {vectors = {}}
   for i = 1, 10 do
@@ -63,7 +63,7 @@ test("what values own is collected: memory stays flat", function(t)
   t.ok(memory() - before < 200, ("%.0f MB more"):format(memory() - before))
 end)
 
-test("shapes have no more points than take a moment", function(t)
+test("the number of points of shapes is limited", function(t)
   local shapes = clench.shapes
   t.fails(function() shapes.prism {outline = shapes.ring {1, segments = 2000}, height = 1} end,
     "shapes.prism: outline must have at most 1024 points, got 2000")
@@ -74,7 +74,7 @@ test("shapes have no more points than take a moment", function(t)
   t.fails(function() shapes.prism {outline = points, height = 1} end, "a list of at most 100000 points, got a table of 200000")
 end)
 
-test("messages of shapes are short, and whole numbers have no point", function(t)
+test("messages of shapes are short, and integers are printed without a decimal point", function(t)
   local function message(radius) return select(2, pcall(clench.shapes.sphere, {radius})) end
   t.ok(#message(("x"):rep(1e6)) < 300)
   t.ok(message "a\0b\27":find("'a?b?'", 1, true))

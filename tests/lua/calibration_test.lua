@@ -30,7 +30,7 @@ local function samples_of(random, calibration, count, sigma)
   return list
 end
 
-test("without noise the true coefficients are found, and saved and read to the bit", function(t)
+test("without noise the true coefficients are found, and saved and read bit-exactly", function(t)
   local random = clench.random(1)
   local known, of_dof = truth(random)
   local found = calibrate {samples = samples_of(random, known, 30, 0), sensors_of = of_dof}
@@ -47,7 +47,7 @@ test("without noise the true coefficients are found, and saved and read to the b
   t.equal(read.intercepts, found.intercepts)
 end)
 
-test("with noise the residuals are as the noise predicts", function(t)
+test("with noise the residuals agree with the noise level", function(t)
   local random = clench.random(2)
   local known, of_dof = truth(random)
   local sigma, count = 0.02, 500
@@ -57,12 +57,12 @@ test("with noise the residuals are as the noise predicts", function(t)
     -- the standard deviation of an estimate of sigma is sigma / sqrt(2 n)
     t.close(report.sigma, sigma, 4 * sigma / math.sqrt(2 * count))
     t.close(report.rms, report.sigma * math.sqrt((count - #of_dof[d] - 1) / count), 1e-12)
-    -- that of a slope is about sigma / (sqrt(n) * spread), of values from 1 to 255
+    -- that of a slope is about sigma / (sqrt(n) * spread), for values from 1 to 255
     for _, s in ipairs(of_dof[d]) do t.close(found.slopes[d][s], known.slopes[d][s], 5 * sigma / (math.sqrt(count) * 73)) end
   end
 end)
 
-test("gross errors are found and left out", function(t)
+test("gross errors are detected and excluded", function(t)
   local random = clench.random(3)
   local known, of_dof = truth(random)
   local samples = samples_of(random, known, 100, 0.001)
@@ -75,7 +75,7 @@ test("gross errors are found and left out", function(t)
   t.equal({good.report[1], good.slopes[1][1], good.intercepts[1]}, {nil, 0, 0})
 end)
 
-test("two postures give the lines through both, and samples may leave DOFs out", function(t)
+test("two postures determine the lines through both, and samples may omit DOFs", function(t)
   local flat = {sensors = {60, 80, 100}, dofs = {[1] = -0.1, [3] = 0}}
   local fist = {sensors = {160, 200, 50}, dofs = {[1] = math.pi / 2, [3] = 1}}
   local found = calibrate {samples = {flat, fist, {sensors = {1, 2, 3}, dofs = {}}}, sensors_of = {[1] = {2}, [3] = {3}}}
@@ -85,7 +85,7 @@ test("two postures give the lines through both, and samples may leave DOFs out",
   t.equal(#found.slopes, 3)
 end)
 
-test("what cannot be fitted is named; a ridge fits it nevertheless", function(t)
+test("DOFs that cannot be fitted are named, and a ridge makes the fit possible", function(t)
   local samples = {{sensors = {1, 2}, dofs = {0.1}}, {sensors = {2, 4}, dofs = {0.2}}, {sensors = {3, 6}, dofs = {0.3}}}
   t.fails(function() calibrate {samples = samples, sensors_of = {{1, 2}}} end, "devices.calibrate: DOF 1: sensor 2 does not vary independently")
   t.fails(function() calibrate {samples = {samples[1]}, sensors_of = {{1}}} end, "DOF 1: 1 sensors need at least 2 samples, got 1")
@@ -98,7 +98,7 @@ test("what cannot be fitted is named; a ridge fits it nevertheless", function(t)
   t.fails(function() clench.devices.save_calibration("x.txt", {slopes = {{1}, {1, 2}}, intercepts = {0, 0}}) end, "slopes[2]: expected 1 numbers")
 end)
 
-test("tracked bodies go where their sensors say, in all three modes", function(t)
+test("tracked bodies follow their sensors, in all three modes", function(t)
   local map, random = clench.devices.tracker_map, clench.random(4)
   local function any() return clench.pose {xyz = {random:uniform(-1, 1), random:uniform(-1, 1), random:uniform(-1, 1)}} * random:rotation() end
   local function same(a, b)
@@ -110,12 +110,12 @@ test("tracked bodies go where their sensors say, in all three modes", function(t
     -- a sensor on the body reads body * mount, in the frame of the transmitter
     local function reading(of, from) return from:inverse() * of * mount end
     same(map {mount = mount}(reading(body, clench.pose {})), body)
-    -- relative: the same motion in the frame of the sensor, whatever the place of the transmitter
+    -- relative: the same motion in the frame of the sensor, for any pose of the transmitter
     local start, now = any(), any()
     local relative = map {mode = "relative", mount = mount, base = reading(start, transmitter), pose = body}
     same(relative(reading(start, transmitter)), body)
     same(relative(reading(now, transmitter)), body * start:inverse() * now)
-    -- camera: a camera's sensor and the body's are read in the same frame
+    -- camera: the sensors of a camera and of the body are read in the same frame
     local camera, stand = any(), any()
     local seen = map {mode = "camera", mount = mount, base = transmitter:inverse() * camera, pose = stand}
     same(seen(reading(body, transmitter)), stand * camera:inverse() * body)

@@ -1,4 +1,4 @@
--- Every entry that calls a function of the script: what the caller learns when that function fails without a message, yields, or returns a wrong value.
+-- Every entry that calls a function of the script: the error if that function fails without a message, yields, or returns a wrong value.
 local test = require "test"
 
 local world_file = "worlds/dlr_flask.wld"
@@ -18,7 +18,7 @@ end
 
 local function run(world) world:run(0.01) end
 
--- {name in messages, call(fn)}; `wrong`: what a wrong value must be instead; `by_text`: called in another state, from its source
+-- {name in messages, call(fn)}; `wrong`: message for a wrong value; `by_text`: called in another state, from its source
 local entries = {
   {"function of world:on_step", function(fn)
     local world = clench.world()
@@ -92,7 +92,7 @@ local entries = {
   end, wrong = "callback.lua: expected a script that returns a world, got a function"},
 }
 
--- {name, fn, what the message says}; each function uses nothing of the lines around it
+-- {name, fn, expected message}; the functions use no upvalues
 local faults = {
   {"nil", function() error(nil) end, ": expected an error with a message, got nil"},
   {"an empty table", function() error {} end, ": expected an error with a message, got the table {}"},
@@ -129,7 +129,7 @@ test("the value of an error without a message is its cause", function(t)
   t.equal(problem.cause, {code = 5})
 end)
 
-test("a function that a coroutine's call of the engine calls cannot yield", function(t)
+test("a callback of an engine call cannot yield in a coroutine", function(t)
   local world = clench.world()
   local recording = world:record {rate = 100}
   run(world)

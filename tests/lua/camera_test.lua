@@ -1,6 +1,6 @@
 local test, clench = require "test", require "clench"
 
--- does the camera show the point, within a part of the picture's half width and height?
+-- whether the camera shows the point, within a part of the picture's half width and height
 local function is_in(camera, aspect, p, part)
   local back = (camera.eye - camera.target) / (camera.eye - camera.target):norm()
   local right = camera.up:cross(back)
@@ -20,7 +20,7 @@ local function assert_shown(t, camera, aspect, body)
   t.equal(corners, 0, body.name .. " is cut")
 end
 
-test("palm and object are in the frame of every random world in which a hand touches", function(t)
+test("palm and object are in the frame of every random world in which a hand touches its object", function(t)
   local random = clench.random(5)
   for _, name in ipairs {"barrett_mug", "parallel_jaw_cube", "three_finger_sphere", "tendon_cylinder", "dlr_flask"} do
     local world = clench.load("worlds/" .. name .. ".wld", {root = "."})
@@ -41,7 +41,7 @@ test("palm and object are in the frame of every random world in which a hand tou
   end
 end)
 
-test("a picture drawn with the camera that was read is the same to the byte", function(t)
+test("a picture drawn with the camera that was read is byte-identical", function(t)
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
   world.robots[1]:autograsp()
   for _, options in ipairs {{size = {96, 64}, quality = "draft"}, {size = {64, 96}, quality = "draft", orthographic = true},
@@ -54,7 +54,7 @@ test("a picture drawn with the camera that was read is the same to the byte", fu
   end
 end)
 
-test("forces do not change the side that is looked at: that of the contacts", function(t)
+test("forces do not change the direction of the view, which faces the contacts", function(t)
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
   local hand, flask = world.robots[1], world.objects[1]
   hand:autograsp()
@@ -64,7 +64,7 @@ test("forces do not change the side that is looked at: that of the contacts", fu
   t.ok(direction(plain):dot(direction(forces)) > 0.7)
 end)
 
-test("a film chooses the camera that render chooses, and holds hand and object in every frame", function(t)
+test("a film uses the camera of render, and shows hand and object in every frame", function(t)
   local world = clench.load("worlds/barrett_mug.wld", {root = "."})
   local hand, mug = world.robots[1], world.objects[1]
   hand:autograsp()
@@ -83,7 +83,7 @@ test("a film chooses the camera that render chooses, and holds hand and object i
   end
 end)
 
-test("a list that is not of worlds is refused", function(t)
+test("a list that contains other values than worlds is rejected", function(t)
   local world = clench.world()
   t.fails(function() clench.camera({world, 3}) end, "worlds[2]: expected a world, got 3")
   t.fails(function() clench.camera {} end, "worlds: expected at least one, got none")

@@ -1,4 +1,4 @@
--- Bodies pressed to a moving body move with it, or slide straight; forces, energies and runs with impacts and snapshots.
+-- Bodies pressed against a moving body move with it, or slide straight; forces, energies and runs with impacts and snapshots.
 local test, clench = require "test", require "clench"
 
 local function table_top(world, options)
@@ -6,7 +6,7 @@ local function table_top(world, options)
   return world:add_obstacle(clench.shapes.box {2, 2, 0.1}, options)
 end
 
-test("a box stays where it is on a turntable", function(t)
+test("a box stays at its place on a turntable", function(t)
   for _, step in ipairs {1e-3, 2e-3} do
     local world = clench.world {dynamics = {time_step = step}}
     world:set_friction("wood", "wood", {static = 1, kinetic = 1})
@@ -21,13 +21,13 @@ test("a box stays where it is on a turntable", function(t)
     local function places() return {disc.pose:inverse() * low.pose.position, disc.pose:inverse() * high.pose.position} end
     local before = places()
     world:run(2)
-    -- along the tangent it would come 2 mm farther out at steps of 1 ms; the solver leaves 1e-12 m/s
+    -- along the tangent it would move 2 mm outwards with steps of 1 ms; the solver leaves 1e-12 m/s
     for i, place in ipairs(places()) do t.ok((place - before[i]):norm() < 1e-10, place - before[i]) end
     t.equal(world.report.failures, 0)
   end
 end)
 
-test("a soft ball turns with what it lies on, as in the other engine", function(t)
+test("a soft ball turns with its support, in both engines", function(t)
   for _, engine in ipairs {"clench", "ode"} do
     local world = clench.world {dynamics = {engine = engine}}
     local disc = table_top(world, {})
@@ -44,7 +44,7 @@ test("a soft ball turns with what it lies on, as in the other engine", function(
   end
 end)
 
-test("what a hand holds stays where it is in it while the hand turns", function(t)
+test("a held object keeps its pose in the hand while the hand turns", function(t)
   local world = clench.load "worlds/barrett_mug.wld"
   local hand, mug = world.robots[1], world.objects[1]
   local gravity = world.gravity
@@ -62,8 +62,8 @@ test("what a hand holds stays where it is in it while the hand turns", function(
   t.ok((held:inverse() * now):angle() < 1e-8)
 end)
 
-test("a rod that turns by more than its own width in a step meets what is in its way", function(t)
-  for _, speed in ipairs {1000, 2 * math.pi / 1e-3} do  -- [rad/s]: the last is a whole turn in a step
+test("a rod that turns by more than its own width in a step hits bodies in its path", function(t)
+  for _, speed in ipairs {1000, 2 * math.pi / 1e-3} do  -- [rad/s]: the last is a complete turn per step
     local world = clench.world()
     world.gravity = {0, 0, 0}
     local rod = world:add_object(clench.shapes.box {1, 0.005, 0.005}, {mass = 0.2})
@@ -74,7 +74,7 @@ test("a rod that turns by more than its own width in a step meets what is in its
   end
 end)
 
-test("forces of what rests are the same where something bounces elsewhere", function(t)
+test("forces between bodies at rest do not depend on impacts elsewhere", function(t)
   local world = clench.world()
   table_top(world, {})
   local box = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {mass = 1, pose = {xyz = {0, 0, 0.05003}}})
@@ -86,7 +86,7 @@ test("forces of what rests are the same where something bounces elsewhere", func
   t.ok(world.report.impacts > impacts + 2)
 end)
 
-test("an elastic ball bounces as high in the end as in the beginning", function(t)
+test("an elastic ball keeps its bounce height", function(t)
   for _, step in ipairs {1e-3, 2e-3} do
     local world = clench.world {dynamics = {time_step = step}}
     table_top(world, {})
@@ -95,12 +95,12 @@ test("an elastic ball bounces as high in the end as in the beginning", function(
     world:run(9.5)
     world:on_step(function() top = math.max(top, ball.pose.position.z) end)
     world:run(1)
-    -- 20 bounces; half a step of gravity too much at each would be 20 mm. It stops 0.02 mm above the table, a part of a step early
+    -- 20 bounces; an error of half a step of gravity at each would be 20 mm. It stops 0.02 mm above the table, a fraction of a step early
     t.close(top, 0.32, 2 * step * step * 9.81 + 1e-3 * 0.3)
   end
 end)
 
-test("a listener that goes back to a snapshot does not make a run endless", function(t)
+test("a listener that restores a snapshot does not make a run endless", function(t)
   local world = clench.world()
   table_top(world, {})
   world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {mass = 1, pose = {xyz = {0, 0, 0.06}}})
@@ -114,7 +114,7 @@ test("a listener that goes back to a snapshot does not make a run endless", func
   t.ok(back >= 3 and steps >= 200 and steps <= 200 + 2 * back, {back, steps})
 end)
 
-test("targets and target velocities leave the forces beside them", function(t)
+test("setting targets and target velocities keeps the forces", function(t)
   local world = clench.load "worlds/parallel_jaw_cube.wld"
   for _, object in ipairs(world.objects) do world:remove(object) end
   world.gravity = {0, 0, 0}
@@ -135,7 +135,7 @@ test("targets and target velocities leave the forces beside them", function(t)
   t.ok(jaw.dofs[1] ~= before)
 end)
 
-test("energy is that of springs of tendons, too", function(t)
+test("energy includes that of springs of tendons", function(t)
   local world = clench.load "worlds/tendon_cylinder.wld"
   for _, list in ipairs {world.objects, world.obstacles} do
     for _, body in ipairs(list) do world:remove(body) end
@@ -157,7 +157,7 @@ test("energy is that of springs of tendons, too", function(t)
   t.ok(most < 1.001 * bent, {most, bent})
 end)
 
-test("what is welded to something that stands stands at once", function(t)
+test("a body welded to a fixed one stops at once", function(t)
   local world = clench.world()
   local top = table_top(world, {})
   local box = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {mass = 1, pose = {xyz = {0, 0, 0.3}}})
@@ -167,7 +167,7 @@ test("what is welded to something that stands stands at once", function(t)
   t.equal(world:energy().kinetic, 0.0)
 end)
 
-test("what does not bounce does not bounce where something slows it down, either", function(t)
+test("a body without restitution does not bounce, also if a force decelerates it before the impact", function(t)
   local world = clench.world {gravity = {0, 0, 0}}
   table_top(world, {})
   local ball = world:add_object(clench.shapes.sphere {radius = 0.02}, {mass = 1, pose = {xyz = {0, 0, 0.03}}})
@@ -182,7 +182,7 @@ test("what does not bounce does not bounce where something slows it down, either
 end)
 
 test("a cube that slips between two pads slides straight along gravity", function(t)
-  -- faces of one size, whose edges lie above each other, and tilt by next to nothing
+  -- equal faces with aligned edges, tilted by almost nothing
   for _, case in ipairs {{}, {way = {0, 0.6, -0.8}}, {time_step = 1e-4}, {engine = "ode"}} do
     local way = clench.vec3(case.way or {0, 0, -1})
     local options = {time_step = case.time_step, engine = case.engine}
@@ -200,7 +200,7 @@ test("a cube that slips between two pads slides straight along gravity", functio
       world:run(0.5)
       -- mu = 0.5 at both pads
       local acceleration = math.max(0, 9.81 - force)
-      -- the pads take a step or two to press as much as they do; a load on few of the corners turns the cube by 0.1 to 10 rad/s
+      -- the pads need a step or two to build up their force; a load on few of the corners turns the cube by 0.1 to 10 rad/s
       t.ok((cube.velocity.linear - 0.5 * acceleration * way):norm() < 1e-4, cube.velocity.linear)
       t.ok(fastest < 1e-3, fastest)
       t.equal(world.report.failures, 0)
@@ -208,7 +208,7 @@ test("a cube that slips between two pads slides straight along gravity", functio
   end
 end)
 
-test("what is thrown at a thin plate does not come through it", function(t)
+test("a body thrown at a thin plate does not pass through", function(t)
   local random = clench.random(7)
   for _, speed in ipairs {50, 300} do
     for i = 1, 20 do
@@ -220,14 +220,14 @@ test("what is thrown at a thin plate does not come through it", function(t)
       local function part() return random:uniform(-0.1, 0.1) * speed end
       box.velocity = {linear = {part(), part(), -speed}, angular = {part(), part(), part()}}
       world:run(0.02 + 0.4 / speed)
-      -- one of its corners strikes first, and the others come round at as much speed
+      -- one of its corners strikes first, and the others follow at the same speed
       t.ok(box.pose.position.z > 0.004, box.pose.position)
       t.equal(world.report.failures, 0)
     end
   end
 end)
 
-test("what stands on a plate whose velocity changes comes along, and is pressed as Newton says", function(t)
+test("a body on a plate whose velocity changes moves along, with forces according to Newton", function(t)
   for _, way in ipairs {clench.vec3(0, 0, 2), clench.vec3(0, 0, -2), clench.vec3(2, 0, 0)} do
     local world = clench.world()
     local plate = table_top(world, {})
@@ -251,13 +251,13 @@ test("what stands on a plate whose velocity changes comes along, and is pressed 
     end)
     world:run(0.2)
     t.ok(checked > 100)
-    -- it stayed behind by a step's way, 400 micrometers
+    -- without that it would lag by the displacement of a step, 400 micrometers
     t.ok((plate.pose:inverse() * high.pose.position - before):norm() < 1e-9)
     t.equal(world.report.overlaps, 0)
   end
 end)
 
-test("what a force presses on a table bounces as under as much gravity, and comes to rest", function(t)
+test("a body pressed on a table by a force bounces as with the equivalent gravity, and comes to rest", function(t)
   local function run(force, gravity)
     local world = clench.world {gravity = {0, 0, -gravity}}
     local box = world:add_object(clench.shapes.box {0.05, 0.05, 0.05}, {mass = 0.2, restitution = 0.8, pose = {xyz = {0, 0, 0.03}}})
@@ -278,11 +278,11 @@ test("what a force presses on a table bounces as under as much gravity, and come
   local pressed, speed = run(10, 0)
   local heavy = run(0, 50)
   t.equal(speed, 0)
-  -- impacts lie at other places of a step, by rounding: 0.4 m/s may be off by a step's gain of 0.05, and so heights
+  -- rounding moves impacts within a step: 0.4 m/s may differ by a step's gain of 0.05, and so may heights
   for k, z in ipairs(heavy) do t.close(pressed[k], z, 0.4 * 0.05 / 50) end
 end)
 
-test("contacts are where the step has them, also of a ball whose facets are farther away than they", function(t)
+test("contacts are those of the last step, also for a ball whose facets are farther away", function(t)
   for _, subdivisions in ipairs {2, 3, 5} do
     local world = clench.world()
     table_top(world, {})
@@ -293,13 +293,13 @@ test("contacts are where the step has them, also of a ball whose facets are fart
     t.equal(#contacts, 1)
     t.close(contacts[1].force:norm(), 0.5 * 9.81, 1e-9)
     t.close(contacts[1].point, clench.vec3(0, 0, 0), 1e-4)
-    -- once it is placed elsewhere its facets count again
+    -- after it is moved its facets count again
     ball.pose = {xyz = {0, 0, 0.025}}
     t.equal(world:contacts(ball), {})
   end
 end)
 
-test("what lies askew between pads, and a little in them, is pressed flush and not swallowed", function(t)
+test("an askew body between pads, slightly overlapping, is aligned and not squeezed through", function(t)
   local shapes = {capsule = clench.shapes.capsule {0.004, 0.04}, cylinder = clench.shapes.cylinder {0.004, 0.04}}
   for _, step in ipairs {5e-4, 1e-3, 5e-3} do
     for name, shape in pairs(shapes) do
@@ -317,7 +317,7 @@ test("what lies askew between pads, and a little in them, is pressed flush and n
         local nearest = 1
         world:on_step(function() nearest = math.min(nearest, 0.1 - pads.dofs[1] - pads.dofs[2]) end)
         world:run(0.5)
-        -- flush they are 8 mm apart; it was squeezed to nothing
+        -- aligned, the pads are 8 mm apart; a squeezed body would leave no gap
         t.ok(nearest > 0.006, ("%s, step %g, overlap %g: %g"):format(name, step, overlap, nearest))
         t.ok(0.1 - pads.dofs[1] - pads.dofs[2] > 0.0075, pads.dofs)
       end

@@ -1,4 +1,4 @@
--- Clients in other languages against `clench serve`: their own tests, where the language is installed.
+-- Clients in other languages with `clench serve`: their own tests, if the language is installed.
 local test = require "test"
 
 local function run(command)
@@ -8,7 +8,7 @@ local function run(command)
   return ok == true, text
 end
 
--- this program as its clients start it
+-- this program in the form in which its clients start it
 local program = run "readlink /proc/$PPID/exe" and select(2, run "readlink /proc/$PPID/exe"):gsub("%s+$", "")
 
 test("the Python client passes its tests", function(t)
@@ -17,7 +17,7 @@ test("the Python client passes its tests", function(t)
   t.ok(ok and text:find "\nOK\n" ~= nil, text)
 end)
 
-test("the Python client of the guide runs as it is printed", function(t)
+test("the Python client example of the guide runs as printed", function(t)
   if not run "python3 --version" then t.skip "python3 is not installed" end
   local page = io.open("docs/guide/server.md"):read "a"
   local blocks = {}

@@ -1,4 +1,4 @@
--- Tab in the console: names from live values.
+-- Tab in the console: names from existing values.
 local test, complete = require "test", require "clench.host.complete"
 
 local function words(line)
@@ -42,7 +42,7 @@ test("fields after a dot, methods after a colon", function(t)
   value, text = nil, nil
 end)
 
-test("in strings names of measures, of what is in a world, and files; in braces the keys of options", function(t)
+test("names of measures, of objects in a world, and of files in strings, and keys of options in braces", function(t)
   world = clench.world()
   hand = world:add_robot("models/hands/dlr/dlr.cfg", {name = "dlr"})
   t.equal({words 'grasp:quality "epsilon_f'}, {"epsilon_f", {"epsilon_force", n = 2}})
@@ -65,7 +65,7 @@ test("in strings names of measures, of what is in a world, and files; in braces 
   world, hand = nil, nil
 end)
 
-test("nothing of the user's runs, and nothing fails", function(t)
+test("completion runs no code of the user, and never fails", function(t)
   trap = setmetatable({}, {__index = function() error "ran" end, __pairs = function() error "ran" end,
                            __name = setmetatable({}, {__tostring = error})})
   for _, line in ipairs {"trap.", "trap.x.", "trap:", "nothing.at.all.", "f().x", "a..b", "...", "1.", "x = 'a.", "", "()",

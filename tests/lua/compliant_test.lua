@@ -12,7 +12,7 @@ local function closed_on_cylinder()
   return world, hand, cylinder, hand:autograsp()
 end
 
-test("a gripper on springs wraps itself around a cylinder, holds it by its springs, and opens again", function(t)
+test("a gripper with springs wraps around a cylinder, holds it by its springs, and opens again", function(t)
   local world, hand, cylinder, result = closed_on_cylinder()
   t.equal(result.stops[1], "contact")
   t.equal(#world:colliding(), 0)
@@ -35,7 +35,7 @@ test("a gripper on springs wraps itself around a cylinder, holds it by its sprin
   each_joint(hand, function(joint) t.equal(joint.value, 0) end)
 end)
 
-test("deflected springs stay so in Lua worlds; other formats say that they do not", function(t)
+test("deflected springs are kept in Lua worlds, and other formats report the loss", function(t)
   local world, hand = closed_on_cylinder()
   local path = test.path()
   world:save(path .. ".lua", {root = "."})
@@ -54,7 +54,7 @@ test("deflected springs stay so in Lua worlds; other formats say that they do no
   end
 end)
 
-test("the original's compliant hand moves in free air as its ratios say, and wraps itself around a ball", function(t)
+test("the original's compliant hand moves in free air with its ratios, and wraps around a ball", function(t)
   local shared = os.getenv "CLENCH_SHARED" or "../shared"
   local path = shared .. "/data/graspit/models/robots/harvardHand/harvardHand.cfg"
   local file = io.open(path)
@@ -71,11 +71,11 @@ test("the original's compliant hand moves in free air as its ratios say, and wra
   hand:autograsp()
   t.equal(#world:colliding(), 0)
   t.ok(#world:contacts(hand, ball) > 0)
-  -- contacts balance every joint, but press the ball, which closing took for fixed, out of the hand
+  -- contacts balance every joint, but push the ball, which closing treated as fixed, out of the hand
   t.equal(clench.grasp(hand, ball):equilibrium({torques = "springs"}).status, "unstable")
 end)
 
-test("springs that have come to rest without friction balance their joints", function(t)
+test("springs at rest without friction balance their joints", function(t)
   local world, hand, cylinder = closed_on_cylinder()
   for i, height in ipairs {0, 0.004, -0.003} do
     hand:open()

@@ -1,5 +1,4 @@
--- Clients that send what makes no sense, all at once, and close wherever they are: each line is answered or its client dropped, and the
--- server goes on.
+-- Clients that send invalid data at the same time and disconnect at any point: each line is answered or its client dropped, and the server continues.
 local test, clench = require "test", require "clench"
 local json, loop = clench.json, clench.loop
 
@@ -7,7 +6,7 @@ local lines = tonumber(os.getenv "CLENCH_HOSTILE_LINES" or 1500)
 local world = clench.load("worlds/barrett_mug.wld", {root = "."})
 local body_names = #world.bodies
 
--- lines that are right, to be spoiled
+-- valid lines, to be mutated
 local text_lines = {"getContacts 3 ALL", "getDOFVals 1 0", "moveDOFs 0 4 0 0.1 0.1 0.1 1 1 1 1", "setDOFForces 1 0 4 0 1 1 1", "getBodyName 2 0 1",
                     "moveDynamicBodies 0.001", "computeNewVelocities 0.001", "get contacts", "step dynamics", "setDOFVals 1 0", "getAverageContacts ALL"}
 local function request(method, params) return json.encode {jsonrpc = "2.0", id = 7, method = method, params = params} end
@@ -16,7 +15,7 @@ local rpc_lines = {request("get", {of = "barrett", fields = {"dofs", "pose"}}), 
                    request("unsubscribe", {subscription = 1}), request("robot.jacobian", {link = "barrett/chain1_link2"}), request("session.undo"),
                    request("grasp.dofs", {dofs = {0, 0.1, 0.1, 0.1}}), "[" .. request "world.hash" .. "," .. request "nope" .. "]"}
 
--- a line with changed, lost, repeated and inserted bytes, which stays one line
+-- a line with changed, lost, repeated and inserted bytes, still a single line
 local function spoiled(line, random)
   for _ = 1, random:integer(1, 4) do
     local at = random:integer(1, math.max(1, #line))
@@ -32,7 +31,7 @@ end
 
 local function connect(server) return clench.port.connect("127.0.0.1", server.port) end
 
-test("every spoiled line of the text protocol is answered, or its client dropped", function(t)
+test("every mutated line of the text protocol is answered, or its client dropped", function(t)
   local server <close> = clench.control.server {world = world, port = 0}
   local random = clench.random(1)
   local client, dropped = connect(server), 0
@@ -50,7 +49,7 @@ test("every spoiled line of the text protocol is answered, or its client dropped
   t.equal(#world.bodies, body_names)
 end)
 
-test("every spoiled request of JSON-RPC is answered, or is a notification", function(t)
+test("every mutated request of JSON-RPC is answered, or is a notification", function(t)
   local server <close> = clench.control.server {world = world, port = 0}
   local random = clench.random(2)
   local client
@@ -81,7 +80,7 @@ test("every spoiled request of JSON-RPC is answered, or is a notification", func
   t.ok(codes[-32700] and codes[-32601] and codes[-32602])
 end)
 
-test("64 clients that come and go anywhere do not disturb each other", function(t)
+test("64 clients that connect and disconnect at any point do not disturb each other", function(t)
   local server <close> = clench.control.server {world = world, port = 0, max_clients = 64}
   local random = clench.random(3)
   local good, answered, worst = connect(server), 0, 0
@@ -152,6 +151,6 @@ test("closing a server ends everything that it has started", function(t)
     loop.sleep(0.01)
     collectgarbage()
     after = descriptors()
-  until after <= before or loop.time() > last  -- those of the tests above may have gone meanwhile, too
+  until after <= before or loop.time() > last  -- those of the tests above may have closed meanwhile, too
   t.ok(after <= before, ("%d descriptors before, %d after"):format(before, after))
 end)

@@ -1,4 +1,4 @@
--- JSON-RPC 2.0: commands and queries by name, errors, batches, subscriptions, jobs, steps, and what strangers may not do.
+-- JSON-RPC 2.0: commands and queries by name, errors, batches, subscriptions, jobs, steps, and restrictions for unauthorized clients.
 local test, clench = require "test", require "clench"
 local json, loop = clench.json, clench.loop
 
@@ -16,7 +16,7 @@ local function connect(server, token)
     local line, why = client.port:read_line(10)
     return line and json.decode(line), why or line
   end
-  -- the response to a request; notifications that come before it are kept
+  -- the response to a request; notifications received before it are kept
   function client.call(method, params)
     client.id = client.id + 1
     client.port:write(json.encode {jsonrpc = "2.0", id = client.id, method = method, params = params} .. "\n")
@@ -38,7 +38,7 @@ end
 
 local function code(response) return response.error and response.error.code end
 
-test("before hello with the token everything is refused, and wrong tokens end the connection", function(t)
+test("before hello with the token every request is rejected, and wrong tokens end the connection", function(t)
   local server <close>, world = serve()
   local before = world:hash()
   local client = connect(server, false)
@@ -56,7 +56,7 @@ test("before hello with the token everything is refused, and wrong tokens end th
   t.equal(connect(open, false).get("hello").protocol, 1)
 end)
 
-test("requests of a wrong form have the standard errors", function(t)
+test("malformed requests have the standard errors", function(t)
   local server <close> = serve()
   local client = connect(server)
   for line, expected in pairs {
@@ -187,7 +187,7 @@ test("queries return the values that scripts read", function(t)
   t.equal(#client.get("hello", {token = server.token}).methods, #methods)
 end)
 
-test("a control loop steps and reads in one round trip, bit for bit as a script", function(t)
+test("a control loop steps and reads in one round trip, bit-identically to a script", function(t)
   local server <close>, world, hand = serve()
   local client = connect(server)
   local copy = world:clone()
@@ -207,7 +207,7 @@ test("a control loop steps and reads in one round trip, bit for bit as a script"
   t.equal(code(client.call("step", {efforts = {nobody = {1}}})), -32000)
 end)
 
-test("long commands run beside others, and are applied as one edit if nothing has changed since", function(t)
+test("long commands run in parallel, and are applied as one edit if nothing has changed since", function(t)
   local server <close>, world = serve()
   local client, other = connect(server), connect(server)
   local before = world:hash()
@@ -233,7 +233,7 @@ test("long commands run beside others, and are applied as one edit if nothing ha
   t.ok(client.get("session.script"):find("world:run(0.01)", 1, true))
 end)
 
-test("searches are jobs with states and events, and are stopped", function(t)
+test("searches are jobs with states and events, and can be stopped", function(t)
   local server <close> = serve()
   local client = connect(server)
   local job = client.get("plan.start", {planner = "sample", options = {count = 1, seed = 1, refine = 1}}).job
@@ -330,7 +330,7 @@ test("requests read and write files only below the server's folder, and none wit
   os.execute("rm -rf " .. folder .. " " .. secret)
 end)
 
-test("a long line and a client that does not read are dropped; others go on", function(t)
+test("clients that send very long lines or do not read are dropped, and others continue", function(t)
   local gone = {}
   local server <close> = serve {max_line = 5000, max_queue = 50000, on_close = function(client) gone[#gone + 1] = client.reason end}
   local client, long, deaf = connect(server), connect(server), connect(server)

@@ -1,4 +1,4 @@
--- Scripts that take part in a run: when they are called, what ends them, and that nothing they do breaks the world.
+-- Scripts that take part in a run: times of their calls, reasons of their end, and safety of the world.
 local test, clench = require "test", require "clench"
 
 local function falling_box()
@@ -13,7 +13,7 @@ local function on_floor()
   return world, box
 end
 
-test("a function that does nothing changes nothing, to the bit, and run ends exactly", function(t)
+test("a function that does nothing changes nothing bit-exactly, and run ends exactly", function(t)
   local world, box = on_floor()
   box.velocity = {linear = {0.3, 0, 0}, angular = {0, 5, 1}}
   local other = world:clone()
@@ -29,7 +29,7 @@ test("a function that does nothing changes nothing, to the bit, and run ends exa
   t.ok(calls >= 713 and calls == world.report.steps)
 end)
 
-test("the lengths that are told add up to the time that passes, wherever runs begin and end", function(t)
+test("the reported step lengths add up to the elapsed time, for any division into runs", function(t)
   for _, piece in ipairs {0.0015, 0.0025, 1 / 60, 0.0007} do
     local world = falling_box()
     local sum = 0
@@ -40,7 +40,7 @@ test("the lengths that are told add up to the time that passes, wherever runs be
   end
 end)
 
-test("a surface runs along itself alone", function(t)
+test("a surface velocity acts only along the surface", function(t)
   local world, box = on_floor()
   box.pose = clench.pose {xyz = {0, 0, 0.05 + 2e-5}}
   world:body "floor".surface_velocity = {0.2, 0, 5}
@@ -49,7 +49,7 @@ test("a surface runs along itself alone", function(t)
   t.close(box.pose.position.z, 0.05, 1e-4)
 end)
 
-test("functions are called in order, at their rates, from where the world is", function(t)
+test("functions are called in order, at their rates, from the current time of the world", function(t)
   local world = falling_box()
   local seen = {}
   world:on_step(function() seen[#seen + 1] = "a" end, {rate = 10})
@@ -58,7 +58,7 @@ test("functions are called in order, at their rates, from where the world is", f
   t.equal(table.concat(seen), "abb")  -- at 0 both, b at 0.05; that of 0.1 comes with the next run
   world:run(0.001)
   t.equal(table.concat(seen), "abbab")
-  -- a world that goes back is called again there
+  -- after a restored snapshot the times are called again
   local times, moment = {}, world:snapshot()
   local handle = world:on_step(function(w) times[#times + 1] = w.time end, {rate = 50})
   world:run(0.1)
@@ -72,7 +72,7 @@ test("functions are called in order, at their rates, from where the world is", f
   t.equal(handle.status, "removed")
   world:run(0.1)
   t.equal(#times, 5)
-  -- not more often than there are steps
+  -- at most once per step
   local sum, calls = 0, 0
   world:on_step(function(_, dt) sum, calls = sum + dt, calls + 1 end, {rate = 2000})
   world:run(0.01)
@@ -90,7 +90,7 @@ test("a controller holds a box in the air", function(t)
   t.close(box.pose.position.z, 1, 1e-3)
 end)
 
-test("a controller at a rate is a script that steps by itself", function(t)
+test("a controller with a rate is equivalent to a script that steps", function(t)
   local world, box = falling_box()
   local other = world:clone()
   world:on_step(function() box.velocity = {linear = {world.time, 0, 0}} end, {rate = 100})
@@ -103,7 +103,7 @@ test("a controller at a rate is a script that steps by itself", function(t)
   t.close(box.pose.position, same.pose.position, 1e-12)
 end)
 
-test("tasks wait for times and for conditions, in the order in which they were spawned", function(t)
+test("tasks wait for times and for conditions, in the order of their creation", function(t)
   local world = falling_box()
   local seen = {}
   local function note(text) seen[#seen + 1] = ("%s %.3f"):format(text, world.time) end
@@ -142,7 +142,7 @@ test("tasks may spawn tasks, end themselves and others, and outlive a run", func
   t.equal(endless.status, "removed")
 end)
 
-test("events tell of contacts and limits once", function(t)
+test("contacts and limits are reported by one event each", function(t)
   local world, box = on_floor()
   box.pose = clench.pose {xyz = {0, 0, 0.2}}
   local events = {}
@@ -171,7 +171,7 @@ test("events tell of contacts and limits once", function(t)
   t.equal(#limits, 1)
 end)
 
-test("an error ends the run, tells where it was, and leaves the world to run on", function(t)
+test("an error ends the run with its position, and the world can continue", function(t)
   local world = falling_box()
   local handle = world:on_step(function() local nothing; nothing.x = 1 end)
   local message = t.fails(function() world:run(1) end, "attempt to index a nil value (local 'nothing')", "in a function of world:on_step",
@@ -192,7 +192,7 @@ test("an error ends the run, tells where it was, and leaves the world to run on"
   world:run(0.01)
 end)
 
-test("controllers may remove bodies, go back in time and start nothing else", function(t)
+test("controllers may remove bodies and restore snapshots, but not start another run", function(t)
   local world, box = on_floor()
   local start = world:snapshot()
   world:spawn(function(task)
@@ -204,7 +204,7 @@ test("controllers may remove bodies, go back in time and start nothing else", fu
   local lost = 0
   world:on("contact_lost", function() lost = lost + 1 end)
   world:run(0.2)
-  -- 0.1 s until it went back, and 0.1 s from there
+  -- 0.1 s until the restore, and 0.1 s from there
   t.close(world.time, 0.1, 1e-12)
   t.close(box.pose.position.z, 1 - 0.5 * 9.81 * 0.01, 1e-2)
   world:on_step(function() world:run(1) end)
@@ -216,7 +216,7 @@ test("controllers may remove bodies, go back in time and start nothing else", fu
   t.close(b.time, 0.01, 1e-9)
 end)
 
-test("functions belong to one world: neither to its clones nor to one that comes after it", function(t)
+test("functions belong to one world: not to its clones and not to later worlds", function(t)
   local calls = 0
   for _ = 1, 50 do
     local world = falling_box()
@@ -231,7 +231,7 @@ test("functions belong to one world: neither to its clones nor to one that comes
   end
 end)
 
-test("what is wrong is said in a sentence", function(t)
+test("faults are reported in one sentence", function(t)
   local world = falling_box()
   t.fails(function() world:on_step() end, "world:on_step: expected a function, got nothing")
   t.fails(function() world:on_step(print, {rate = 0}) end, "world:on_step: rate must be")
@@ -260,7 +260,7 @@ local function vector(matrix, v)
   return out
 end
 
-test("the mass matrix gives the energy of motion, and inverse dynamics the forces that a motion needs", function(t)
+test("the mass matrix gives the kinetic energy, and inverse dynamics the forces that a motion requires", function(t)
   for _, file in ipairs {"barrett/barrett.cfg", "dlr/dlr.cfg"} do
     local world = clench.world()
     local hand = world:add_robot("models/hands/" .. file)
@@ -278,7 +278,7 @@ test("the mass matrix gives the energy of motion, and inverse dynamics the force
       for k = 1, #M do t.close(M[i][k], M[k][i], 1e-15) end
     end
     local before = hand.dof_velocities
-    -- forces of inverse dynamics give the accelerations that were asked for
+    -- forces of inverse dynamics give the requested accelerations
     local asked = {}
     for i = 1, #M do asked[i] = random:normal() end
     world.time_step = 1e-5
@@ -295,7 +295,7 @@ test("the mass matrix gives the energy of motion, and inverse dynamics the force
   end
 end)
 
-test("gravity is in the bias forces of a robot whose motors do not carry it", function(t)
+test("bias forces include gravity if the motors of a robot do not compensate it", function(t)
   local world = clench.world()
   local hand = world:add_robot "models/hands/barrett/barrett.cfg"
   hand.gravity_compensation = true
@@ -303,11 +303,11 @@ test("gravity is in the bias forces of a robot whose motors do not carry it", fu
   hand.gravity_compensation = false
   local sum = 0
   for _, force in ipairs(hand:bias_forces()) do sum = sum + math.abs(force) end
-  -- some 8 cm of finger, 0.2 kg in all
+  -- some 8 cm of finger, 0.2 kg in total
   t.ok(sum > 0.1 and sum < 0.3)
 end)
 
-test("stiffer motors give way less", function(t)
+test("stiffer motors yield less", function(t)
   local function deflection(gains)
     local world = clench.world()
     local hand = world:add_robot "models/hands/barrett/barrett.cfg"
@@ -330,8 +330,8 @@ test("stiffer motors give way less", function(t)
   t.fails(function() hand.gains = 5 end, "expected a list of gains, got 5")
 end)
 
--- a rod of 0.2 m on a hinge, horizontal at first; actuators: elements of MuJoCo
--- returns its world, it, and what is read of it as URDF
+-- a rod of 0.2 m on a hinge, initially horizontal; actuators: elements of MuJoCo
+-- returns its world, the robot, and the robot read back from a URDF file
 local function rod(actuators)
   local path = test.path(".xml", [[<mujoco model="rod"><compiler angle="radian"/><worldbody><body name="base" pos="0 0 1"><geom size="0.02" mass="1"/>
     <body name="rod"><joint name="hinge" axis="0 1 0" range="-3 3" limited="true"/>
@@ -343,7 +343,7 @@ local function rod(actuators)
   return world, robot, again
 end
 
-test("a joint that no actuator drives swings; one with a servo is held, and carries the weight", function(t)
+test("a joint without actuators swings, and one with a servo is held, and carries the weight", function(t)
   local world, robot = rod()
   t.equal(robot.controller, "effort")
   t.equal(robot.dof_info[1].driven, false)
@@ -372,11 +372,11 @@ test("a joint that no actuator drives swings; one with a servo is held, and carr
   t.close(robot.dofs[1], 0.0981 * math.cos(robot.dofs[1]), 1e-3)
 end)
 
-test("forces beside a controller add to what it asks for, and both together stay within the largest effort", function(t)
+test("the force added to a controller's effort and that effort together stay within the maximal effort", function(t)
   local world, robot = rod [[<actuator><position joint="hinge" kp="40" kv="2" forcerange="-20 20"/></actuator>]]
   world.gravity = {0, 0, 0}
   world.time_step = 1e-6
-  -- in a time in which 20 N m make the rod 0.015 rad/s fast, which the servo's damping takes 0.03 N m for
+  -- in a time in which 20 N m accelerate the rod to 0.015 rad/s, at which the servo's damping is 0.03 N m
   local function effort(target, force)
     robot:set_dofs {0}
     robot:set_targets {target}
@@ -392,7 +392,7 @@ test("forces beside a controller add to what it asks for, and both together stay
   t.close(effort(1, -100), -20, 1e-12)
 end)
 
-test("a velocity that is set changes what it names", function(t)
+test("setting a velocity changes only what it names", function(t)
   local _, box = falling_box()
   box.velocity = {linear = {1, 2, 3}, angular = {4, 5, 6}}
   box.velocity = {angular = {0, 0, 1}}
@@ -404,7 +404,7 @@ test("a velocity that is set changes what it names", function(t)
   t.fails(function() box.velocity = {linaer = {1, 0, 0}} end, "unknown key 'linaer', expected one of linear, angular; did you mean 'linear'?")
 end)
 
-test("targets by name leave the other DOFs as they are", function(t)
+test("targets by name leave the other DOFs unchanged", function(t)
   local hand = clench.load("worlds/barrett_mug.wld").robots[1]
   hand.controller = "effort"
   hand:set_forces {0, 0, 0.05, 0}
@@ -416,7 +416,7 @@ test("targets by name leave the other DOFs as they are", function(t)
   t.equal(hand.controller, "position")
 end)
 
-test("forces and target velocities by name leave the other DOFs as they are", function(t)
+test("forces and target velocities by name leave the other DOFs unchanged", function(t)
   local hand = clench.load("worlds/barrett_mug.wld").robots[1]
   hand.controller = "effort"
   hand:set_forces {0, 0.02, 0.05, 0}
@@ -432,12 +432,12 @@ test("forces and target velocities by name leave the other DOFs as they are", fu
   t.fails(function() hand:set_target_velocities {1, dof2 = 1} end, "expected")
 end)
 
-test("what is added in a step begins with the next one", function(t)
+test("functions added during a step begin with the next step", function(t)
   local world = falling_box()
   local spawned, called, tasks = 0, 0, 0
   local function again()
     spawned = spawned + 1
-    world:spawn(again)  -- would go on for ever within one step
+    world:spawn(again)  -- would continue for ever within one step
   end
   world:spawn(again)
   world:on_step(function()
@@ -449,7 +449,7 @@ test("what is added in a step begins with the next one", function(t)
   t.equal(called, 9)
 end)
 
-test("the halves of a step are not for what is called in a run", function(t)
+test("the halves of a step cannot be called within a run", function(t)
   local world = falling_box()
   world:on_step(function() world:move_bodies(0.001) end)
   t.fails(function() world:run(0.01) end, "world:move_bodies: the world runs already: what is called in a run cannot step it")
@@ -458,13 +458,13 @@ test("the halves of a step are not for what is called in a run", function(t)
   t.fails(function() world:run(0.01) end, "world:solve_velocities: the world runs already: what is called in a run cannot step it")
 end)
 
-test("with breakaway a stopped link lets its fingertip close on, without it both stay", function(t)
+test("with breakaway, the fingertip of a blocked link continues to close, and without it both stop", function(t)
   for _, breakaway in ipairs {true, false} do
     local world = clench.world {gravity = {0, 0, 0}}
     local hand = world:add_robot "models/hands/barrett/barrett.cfg"
     t.equal(hand.breakaway, false)
     hand.breakaway = breakaway
-    -- a rod where the first link of the third finger passes
+    -- a rod in the path of the first link of the third finger
     hand:set_dofs {0, 0, 0, 1.6}
     local finger = hand.chains[3]
     local bounds = finger.links[1].bounds_in_world
@@ -484,7 +484,7 @@ test("with breakaway a stopped link lets its fingertip close on, without it both
   end
 end)
 
-test("a pair of materials keeps its own restitution when a study takes a share of its friction", function(t)
+test("a pair of materials keeps its restitution if a study uses a fraction of its friction", function(t)
   local world = clench.world()
   local a = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {material = "wood"})
   t.equal(select("#", world:friction("plastic", "wood")), 2)
@@ -498,7 +498,7 @@ test("a pair of materials keeps its own restitution when a study takes a share o
   t.equal(restitution, 0.7)
 end)
 
-test("the damping of a servo may be a ratio, to the critical one for the inertia that its DOF feels", function(t)
+test("the damping of a servo may be a ratio to the critical damping for the inertia of its DOF", function(t)
   for _, servo in ipairs {[[<position joint="hinge" kp="4" dampratio="0.5"/>]],
       [[<general joint="hinge" biastype="affine" gainprm="4" biasprm="0 -4 0.5"/>]]} do
     local _, robot, again = rod("<actuator>" .. servo .. "</actuator>")
@@ -509,7 +509,7 @@ test("the damping of a servo may be a ratio, to the critical one for the inertia
   end
 end)
 
-test("logs and recordings of a world that a script steps are those of a run", function(t)
+test("logs and recordings of a world stepped by a script equal those of a run", function(t)
   local function scene()
     local world = clench.world {gravity = {0, 0, -9.81}}
     world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "box", mass = 1, material = "wood"})
@@ -526,7 +526,7 @@ test("logs and recordings of a world that a script steps are those of a run", fu
   t.equal(log.rows, log_of_run.rows)
   t.equal(film.times, film_of_run.times)
   t.equal(#film.times, 6)
-  -- a function that is called there cannot step the world, and is named
+  -- a function that cannot step the world at that point is named
   world:log {quantities = {mine = function() world:run(1) end}}
   t.fails(function() world:move_bodies(0.001) end, "the world runs already", "function 'mine' of world:log")
   local fresh = clench.world()

@@ -1,4 +1,4 @@
--- The text protocol of GraspIt!: every command, its errors, the old dialect, and clients that misbehave.
+-- The text protocol of GraspIt!: every command, its errors, the old dialect, and misbehaving clients.
 local test, clench = require "test", require "clench"
 local loop = clench.loop
 
@@ -12,7 +12,7 @@ end
 
 local function connect(server)
   local client = clench.port.connect("127.0.0.1", server.port)
-  -- sends lines; returns so many reply lines, and checks that no more follow
+  -- sends lines; returns the given number of reply lines, and checks that no more follow
   local function ask(lines, count)
     client:write(lines .. "\n")
     local replies = {}
@@ -33,7 +33,7 @@ local function numbers(line)
   return list
 end
 
-test("names and DOF values come as lists, with their number if all are asked for", function(t)
+test("names and DOF values are sent as lists, with their number if all are requested", function(t)
   local server <close>, world, hand = serve()
   local _, ask = connect(server)
   t.equal(ask("getRobotName 1 0", 1), {hand.name})
@@ -49,13 +49,13 @@ test("names and DOF values come as lists, with their number if all are asked for
   t.equal(ask("getDOFVals ALL", 6)[1], "1")
 end)
 
-test("two commands in one packet do not share their lists", function(t)
+test("two commands in one packet have separate lists", function(t)
   local server <close>, _, hand = serve()
   local _, ask = connect(server)
   t.equal(ask("getRobotName 1 0\ngetRobotName 1 0\ngetRobotName ALL", 4), {hand.name, hand.name, "1", hand.name})
 end)
 
-test("moveDOFs moves by steps until the first contact", function(t)
+test("moveDOFs moves in steps until the first contact", function(t)
   local server <close>, world, hand = serve()
   local _, ask = connect(server)
   local copy = world:clone()
@@ -64,17 +64,17 @@ test("moveDOFs moves by steps until the first contact", function(t)
   same:move_dofs({0, 1.5, 1.5, 1.5}, {stop_at_contact = true})
   for i, value in ipairs(same.dofs) do t.close(tonumber(values[i]), value, 1e-6) end
   t.ok(#world:contacts(hand) > 0 and #world:colliding() == 0)
-  -- a DOF of larger steps arrives before the others
+  -- a DOF with larger steps arrives before the others
   hand:open()
   values = ask("moveDOFs 0 4 0.2 0.1 0.2 0.3 0.1 0.001 0.1 0", 4)
   t.close(tonumber(values[1]), 0.2, 1e-8)
   t.close(tonumber(values[2]), 0.1, 1e-8)
   t.close(tonumber(values[4]), 0, 1e-8)  -- its step is 0
-  -- beyond the limits: as far as these
+  -- targets beyond the limits: moves to the limits
   t.close(tonumber(ask("moveDOFs 0 4 0.2 -9 0.2 0 1 1 1 1", 4)[2]), hand.dof_limits[2][1], 1e-8)
 end)
 
-test("DOFs that slide are in millimeters", function(t)
+test("prismatic DOFs are in millimeters", function(t)
   local server <close>, _, hand = serve {world = clench.load("worlds/parallel_jaw_cube.wld", {root = "."})}
   local _, ask = connect(server)
   local slides
@@ -86,7 +86,7 @@ test("DOFs that slide are in millimeters", function(t)
   t.close(tonumber(values[1 + slides]), 1e3 * hand.dofs[slides], 1e-6)
 end)
 
-test("contacts come with the force, the place and the error, in the frames of the bodies", function(t)
+test("contacts have force, position and error, in the frames of the bodies", function(t)
   local server <close>, world, hand = serve()
   local _, ask = connect(server)
   hand:autograsp()
@@ -117,7 +117,7 @@ test("contacts come with the force, the place and the error, in the frames of th
   t.ok(#world:contacts(hand) > 1)
 end)
 
-test("the loop of the manual gives the same as the calls of a script", function(t)
+test("the loop of the manual gives the same result as the calls of a script", function(t)
   local server <close>, world, hand = serve()
   local _, ask = connect(server)
   local copy = world:clone()
@@ -135,7 +135,7 @@ test("the loop of the manual gives the same as the calls of a script", function(
   t.equal(ask("moveDynamicBodies", 1), {("%.9g"):format(world.time_step)})
 end)
 
-test("the dialect of version 0.9 is understood", function(t)
+test("the dialect of version 0.9 is supported", function(t)
   local server <close>, world, hand = serve()
   local client, ask = connect(server)
   local time = world.time
@@ -159,7 +159,7 @@ test("the dialect of version 0.9 is understood", function(t)
   t.ok(client:is_open())
 end)
 
-test("every line that is wrong is answered by one line that says so", function(t)
+test("every wrong line is answered by one error line", function(t)
   local server <close>, world, hand = serve()
   local _, ask = connect(server)
   local before = world:hash()
@@ -202,7 +202,7 @@ test("every line that is wrong is answered by one line that says so", function(t
   t.equal(client:read_line(5), "Error: no world is open")
 end)
 
-test("clients are served in the order in which they came, a line of each in turn", function(t)
+test("clients are served in the order of connection, in turns of one line", function(t)
   local order = {}
   local world = clench.load("worlds/barrett_mug.wld", {root = "."})
   local session = clench.session(world)
@@ -226,7 +226,7 @@ test("clients are served in the order in which they came, a line of each in turn
   t.close(world.robots[1].dofs[1], 0.3, 1e-12)  -- the last one of the last round
 end)
 
-test("clients that misbehave are dropped, and others go on", function(t)
+test("misbehaving clients are dropped, and others continue", function(t)
   local gone = {}
   local server <close>, _, hand = serve {max_clients = 3, max_line = 2000, max_queue = 20000, on_close = function(client) gone[#gone + 1] = client.reason end}
   local _, ask = connect(server)

@@ -2,7 +2,7 @@
 local clench = require "clench"
 local test = require "test"
 
--- runs with the path of a file that `command` makes
+-- runs with the path of a file made by `command`
 local function with(command, run)
   local path = test.path()
   assert(os.execute(command:format(path)))
@@ -23,7 +23,7 @@ test("pipes and devices are never opened", function(t)
   t.fails(function() clench.csv.read "tests" end, "csv.read: expected a file, got a folder: tests")
 end)
 
-test("a file is read whole, byte by byte", function(t)
+test("a file is read completely, byte by byte", function(t)
   local path, text = test.path(), "a\0b\r\n\xFF"
   clench.files.save_text(path, text)
   t.equal(clench.files.read_text(path), text)
@@ -31,7 +31,7 @@ test("a file is read whole, byte by byte", function(t)
   t.fails(function() clench.files.read_text(path) end, "no such file: " .. path)
 end)
 
-test("a file outside of the folder to which reading is confined is not read", function(t)
+test("a file outside of the folder of confined reading is not read", function(t)
   clench.csv.write("build/csv_test.csv", {{a = 1}})
   t.equal(clench.csv.read("build/csv_test.csv", {confine = "build"})[1].a, 1)
   t.fails(function() clench.csv.read("build/csv_test.csv", {confine = "models"}) end, "csv.read: 'build/csv_test.csv' lies outside of models")

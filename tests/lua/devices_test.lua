@@ -1,11 +1,11 @@
--- Drivers of devices against programs that play them: one suite for all, and each protocol by bytes of its description.
+-- Drivers of devices with simulated devices: one suite for all, and each protocol by the bytes of its description.
 local test, clench = require "test", require "clench"
 local loop, devices = clench.loop, clench.devices
 local simulated = devices.simulated
 
 local pose = clench.pose {xyz = {0.3, -0.1, 0.2}, rpy = {0.3, -0.4, 0.5}}
 
--- of each device: how it is connected, read and commanded. `close_to`: is a reading what was commanded, or what is simulated?
+-- how to connect, command and read each device. `check`: compares a reading with the commanded or simulated state
 local kinds = {
   barrett = {
     connect = function(at, quick, attempts)
@@ -194,7 +194,7 @@ test("Dynamixel: packets are those of the protocol's description", function(t)
   t.equal({packet.decode(broken, 1)}, {nil, 2, true})
 end)
 
-test("Dynamixel: the watchdog stops motors that hear nothing, and goals set it again", function(t)
+test("Dynamixel: the watchdog stops motors without packets, and new goals set it again", function(t)
   local device <close> = simulated.dynamixel {ids = {1}, speed = 100}
   local bus <close> = devices.dynamixel {port = device.path, ids = {1}, watchdog = 0.2}
   bus:write_positions {0.2}

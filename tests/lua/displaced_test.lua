@@ -1,8 +1,8 @@
--- No verified grasp is lost when the object is displaced by 1 mm: shown by a loop of its own, in a world that no planner has seen, from
--- what the grasp's line says alone.
+-- Displacing the object by 1 mm loses no verified grasp: shown by an independent loop, in a world that no planner has used, from the data of the
+-- grasp's line only.
 local test, clench = require "test", require "clench"
 
--- from the pregrasp straight on to where the hand would grasp the object at X_WO, or to the first touch; then it closes
+-- from the pregrasp in a straight line to the grasp of the object at X_WO, or to the first contact; then the hand closes
 local function close_from_pregrasp(hand, X_WO, grasp)
   hand:set_posture(X_WO * grasp.pregrasp.pose, grasp.pregrasp.dofs)
   if hand.world:collides(hand) then return false end
@@ -17,8 +17,8 @@ local function epsilon_of(hand, object)
   return #grasp.points > 0 and grasp.epsilon or 0
 end
 
--- Jaws that one motor drives stop when one of them touches: the object is pushed along, in steps that become smaller where it is
--- pushed back or would be pushed in, until both touch. Then their rubber counts as touching within twice the threshold.
+-- Jaws of one motor stop when one of them touches: the object is pushed along, in steps that are halved if it is pushed back or would overlap, until
+-- both touch. Finally contacts are found within twice the threshold, because the pads are of rubber.
 local function push_until_held(hand, object)
   local world, step, last = hand.world, 1e-4, nil
   for _ = 1, 40 do
@@ -53,7 +53,7 @@ local function displaced_poses(X_WO, random)
       poses[#poses + 1] = clench.pose {xyz = xyz} * X_WO
     end
   end
-  -- and two that were not requested
+  -- and two random directions
   for _ = 1, 2 do poses[#poses + 1] = clench.pose {xyz = random:direction() * 0.001} * X_WO end
   return poses
 end

@@ -1,4 +1,4 @@
--- The pages that clench doc writes, and the parts they are made from.
+-- The pages that clench doc writes, and their parts.
 local test, doc = require "test", require "clench.host.doc"
 
 local text = [[
@@ -11,7 +11,7 @@ until contact.
 > hand:autograsp().moved  --> true
 > hand:autograsp{sped = 1}  --> error: unknown key]]
 
-test("an entry's doc comes apart", function(t)
+test("an entry's doc is parsed into its parts", function(t)
   local parsed = doc.parse(text)
   t.equal(parsed.text, "Closes the fingers until contact.")
   t.equal(parsed.params[1], {name = "options?", type = '{speed?: number, norm?: "L1"|"Linf"}', text = "how fast", limits = ""})
@@ -24,7 +24,7 @@ test("an entry's doc comes apart", function(t)
   t.equal(doc.parse("x\n> code").unused, 1)
 end)
 
-test("pages come in pairs of name and text, and the stub is Lua", function(t)
+test("pages are pairs of name and text, and the stub is valid Lua", function(t)
   local pages = table.pack(doc.pages())
   t.equal(pages.n % 2, 0)
   local by_name = {}

@@ -4,8 +4,7 @@ local verification = require "clench.plan.verification"
 
 local weight = 9.81 * 0.2  -- of the block [N]
 
--- two jaws that slide towards each other, of actuators that are given as elements of MJCF, %s the joint
--- second: of j2, where it has another one
+-- two jaws that slide towards each other, with actuators given as elements of MJCF, where %s is the joint second: actuator of j2, if different
 local function gripper(t, actuator, second)
   local jaw = [[<body name="f%d" pos="0 %g 0.06"><inertial pos="0 0 0" mass="0.1" diaginertia="0.0001 0.0001 0.0001"/>
     <joint name="j%d" type="slide" axis="0 %d 0" range="0 0.04"/><geom type="box" size="0.01 0.005 0.05"/></body>]]
@@ -15,10 +14,10 @@ local function gripper(t, actuator, second)
     .. jaw:format(1, -0.06, 1, 1) .. jaw:format(2, 0.06, 2, -1) .. "</body></worldbody>" .. drive .. "</mujoco>")
 end
 
--- the gripper closed about a block of 50 mm between its jaws; grasp
+-- the gripper closed around a block of 50 mm between its jaws, and the grasp
 local function closed(t, actuator, second)
   local world = clench.world()
-  -- joints that nothing drives close, too: their motors are what is tested
+  -- joints without motors close, too: the motors are tested below
   local hand = world:add_robot(gripper(t, actuator, second), {close = {j1 = 1, j2 = 1}})
   local block = world:add_object(clench.shapes.box {0.05, 0.05, 0.05}, {mass = 0.2, pose = {xyz = {0, 0, 0.08}}})
   hand:autograsp()
@@ -74,7 +73,7 @@ end)
 
 test("a grip slips when the load exceeds the friction force of the motors' efforts", function(t)
   local random = clench.random(3)
-  local kinds = {  -- each of a DOF that stands at q and of an effort
+  local kinds = {  -- actuators with a given effort, for a DOF at q
     function(effort) return [[<motor joint="%%s" gear="%.17g" ctrlrange="-0.5 1"/>]], effort end,
     function(effort) return [[<general joint="%%s" gear="-1" gainprm="%.17g" forcerange="-50 1"/>]], effort, 50 end,
     function(effort, q) return [[<position joint="%%s" kp="%.17g" ctrlrange="0 0.04"/>]], effort / (0.04 - q) end,
@@ -140,7 +139,7 @@ test("a search without success names the one joint that closes without a motor",
   t.ok(tostring(run.report):find("why: joints that close grip exert no force: no motor drives j2", 1, true), tostring(run.report))
 end)
 
-test("a hand without motors does not close by them", function(t)
+test("a hand without motors does not close dynamically", function(t)
   local hand = closed(t, false)
   t.equal(hand.dof_info[1].driven, false)
   t.equal(hand.dof_info[1].can_close, false)
@@ -152,12 +151,12 @@ test("a hand without motors does not close by them", function(t)
   t.equal(opens.effort_ranges[1], {-20.0, 0.0})
 end)
 
-test("the control range of a servo bounds its effort, whatever force is added", function(t)
+test("the control range of a servo bounds its effort, including added forces", function(t)
   for _, controller in ipairs {"position", "effort"} do
     local hand, block = closed(t, [[<position joint="%s" kp="100" ctrlrange="0 0.04"/>]])
     local world = hand.world
     world.gravity = {0, 0, 0}
-    -- 0.04 m less the 0.03 m at which the jaws touch
+    -- 0.04 m minus the 0.03 m at which the jaws touch
     t.close(hand.effort_ranges[1][2], 100 * (0.04 - hand.dofs[1]), 1e-12)
     t.close(hand.effort_ranges[1][2], 1, 0.02)
     hand.controller = controller

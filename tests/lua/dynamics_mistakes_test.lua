@@ -1,4 +1,4 @@
--- Simulation of worlds with mistakes: an error sentence, or steps that the report describes.
+-- Simulation of worlds with mistakes: an error message, or steps with reported faults.
 local clench = require "clench"
 local test = require "test"
 
@@ -26,7 +26,7 @@ local function all_finite(t, world)
 end
 
 -- each warning is logged once per script: so this test is the first
-test("overlaps, and demands that contradict each other, are told after a run, once", function(t)
+test("overlaps and contradictory demands are reported once, after a run", function(t)
   local world = room()
   add(world, 0, 0.045)
   local told = "world:run: bodies overlap (body and body_2); they are pushed apart slowly; world.report.overlaps counts them"
@@ -34,7 +34,7 @@ test("overlaps, and demands that contradict each other, are told after a run, on
   t.ok(said:find(told, 1, true), said)
   t.equal(t.warnings(function() world:run(0.01) end), {})
 
-  -- between two walls that come nearer, whatever they push
+  -- between two approaching walls of unlimited force
   world = clench.world {gravity = {0, 0, 0}}
   local left = world:add_obstacle(box, {pose = {xyz = {-0.1001, 0, 0}}})
   world:add_obstacle(box, {pose = {xyz = {0.1001, 0, 0}}})
@@ -46,11 +46,11 @@ test("overlaps, and demands that contradict each other, are told after a run, on
     "world.report.failures counts them", 1, true), said)
 end)
 
-test("a box placed exactly on the ground, or a little into it, rests on it", function(t)
+test("a box placed exactly on the ground, or slightly into it, rests on it", function(t)
   for _, z in ipairs {0.05, 0.04999, 0.045} do
     local world = room()
     local body = add(world, 0, z)
-    -- in each step it leaves 0.02 of what it is too deep: below 1e-8 m/s that counts as rest
+    -- each step removes 0.02 of the overlap; below 1e-8 m/s the box counts as at rest
     world:run(1.2)
     t.close(body.pose.position.z, 0.05, 1e-4)
     t.close(body.velocity.linear:norm(), 0, 1e-9)
@@ -59,7 +59,7 @@ test("a box placed exactly on the ground, or a little into it, rests on it", fun
   end
 end)
 
-test("a box teleported into another leaves it, or is reported to stand in it", function(t)
+test("a box teleported into another separates from it, or is reported as overlapping", function(t)
   local world = room()
   local a, b = add(world, 0, 0.0501), add(world, 0.3, 0.0501)
   world:run(0.05)
@@ -75,7 +75,7 @@ test("a box teleported into another leaves it, or is reported to stand in it", f
   all_finite(t, world)
 end)
 
-test("masses from 1e-12 to 1e10 kg on one another: failures are counted, poses stay numbers", function(t)
+test("stacks of masses from 1e-12 to 1e10 kg count failures, and keep finite poses", function(t)
   for _, mass in ipairs {1e-12, 1e10} do
     local world = room()
     add(world, 0, 0.0501, mass)
@@ -87,7 +87,7 @@ test("masses from 1e-12 to 1e10 kg on one another: failures are counted, poses s
   t.fails(function() add(room(), 0, 1, 1e-13) end, "mass")
 end)
 
-test("huge forces and speeds are refused in a sentence or done", function(t)
+test("huge forces and speeds are rejected in one sentence or simulated", function(t)
   local world = room()
   local body = add(world, 0, 0.0501)
   t.fails(function() room().run(1) end, "world:run: expected a world before the colon, got 1; use world:run(...)")
@@ -123,7 +123,7 @@ test("a fast body does not pass through the ground", function(t)
   end
 end)
 
-test("bodies removed, and collision switched off, while they touch", function(t)
+test("bodies removed and collisions switched off during contact are handled", function(t)
   local world, floor = room()
   local low, high = add(world, 0, 0.0501), add(world, 0, 0.1502)
   world:run(0.05)
@@ -143,7 +143,7 @@ test("bodies removed, and collision switched off, while they touch", function(t)
   t.equal(world.report.contacts, 0)
 end)
 
-test("no time is no step, and steps that are none are refused", function(t)
+test("a run of zero duration makes no step, and invalid steps are rejected", function(t)
   local world = room()
   add(world, 0, 0.0501)
   world:run(0)
@@ -158,7 +158,7 @@ test("no time is no step, and steps that are none are refused", function(t)
   t.fails(function() world:solve_velocities(0) end, "world:solve_velocities: h: expected a time from 1e-12 to")
 end)
 
-test("steps of 1e-7: each is done, and what rests stays", function(t)
+test("steps of 1e-7 s are all computed, and bodies at rest stay at rest", function(t)
   local world = room()
   local body = add(world, 0, 0.0501)
   world:run(0.1)
@@ -170,7 +170,7 @@ test("steps of 1e-7: each is done, and what rests stays", function(t)
   t.close(body.pose.position.z, z, 1e-6)
 end)
 
--- two links beside each other on a base, each turned by a position servo
+-- two links side by side on a base, each turned by a position servo
 local function tongs(world, kp)
   local link = [[<body name="%s" pos="%g 0 0.1"><joint name="%s_joint" axis="0 1 0" range="-1 1" limited="true"/>
     <geom type="box" size="0.01 0.02 0.05" pos="0 0 0.06" mass="0.1"/></body>]]
@@ -181,7 +181,7 @@ local function tongs(world, kp)
     .. servo:format("left", "left", kp) .. servo:format("right", "right", kp) .. "</actuator></mujoco>"))
 end
 
-test("gains of 1e12 and of 1e-12 move joints or leave them, and give numbers", function(t)
+test("gains of 1e12 and of 1e-12 give finite numbers", function(t)
   for _, kp in ipairs {1e12, 1, 1e-12} do
     local world = clench.world {}
     local robot = tongs(world, kp)
@@ -193,7 +193,7 @@ test("gains of 1e12 and of 1e-12 move joints or leave them, and give numbers", f
   end
 end)
 
-test("a robot that stands in itself is reported, and comes apart or stays", function(t)
+test("a robot with self-overlap is reported, and stays finite", function(t)
   local world = clench.world {}
   local robot = tongs(world, 10)
   robot.dofs = {0.9, -0.9}

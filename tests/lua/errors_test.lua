@@ -1,4 +1,4 @@
--- Errors tell their kind, and are as good as the text that they say.
+-- Errors have a kind as a value, and can be used like their text.
 local test, clench = require "test", require "clench"
 
 local function error_of(fn, ...)
@@ -7,7 +7,7 @@ local function error_of(fn, ...)
   return message
 end
 
-test("an error tells its kind", function(t)
+test("an error has a kind", function(t)
   local world = clench.load("worlds/dlr_flask.wld")
   local hand, flask = world.robots[1], world.objects[1]
   hand:autograsp()
@@ -32,14 +32,14 @@ test("an error tells its kind", function(t)
   t.equal(error_of(function() return flask.mass end).kind, "stale")
 end)
 
-test("a faulty file is an error of the file, wherever it is noticed", function(t)
+test("a faulty file is an error of the file, wherever it is detected", function(t)
   for _, text in ipairs {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 x\n3 0 1 2\n", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", "OFF\n0 0 0\n"} do
     local path = test.path(".off", text)
     t.equal(error_of(function() clench.world():add_object(path) end).kind, "file")
   end
 end)
 
-test("an error prints, joins and is searched as its text", function(t)
+test("an error can be printed, concatenated and searched like its text", function(t)
   local message = error_of(clench.rad, "x")
   t.equal(tostring(message), message.text)
   t.equal(message .. "!", message.text .. "!")
@@ -51,7 +51,7 @@ test("an error prints, joins and is searched as its text", function(t)
   t.equal(message.place .. message.sentence, message.text)
 end)
 
-test("an error blames the script's line, however deep in the library it is raised", function(t)
+test("an error names the script's line, however deep in the library it is raised", function(t)
   local hand = clench.load("worlds/dlr_flask.wld").robots[1]
   local function line_of(fn) return error_of(fn).place:match "errors_test%.lua:(%d+): $" end
   local here = debug.getinfo(1, "l").currentline
@@ -59,13 +59,13 @@ test("an error blames the script's line, however deep in the library it is raise
   t.equal(line_of(function() clench.study.robustness(hand) end), tostring(here + 2))
   t.equal(line_of(function() clench.plan.anneal {hand = hand, object = hand.world.objects[1], energy = "nothing"} end), tostring(here + 3))
   t.equal(line_of(function() clench.csv.read "no/such.csv" end), tostring(here + 4))
-  local function energy() clench.rad "x" end  -- a function of the script's own knows its line
+  local function energy() clench.rad "x" end  -- an error of a script's own function has that function's line
   local raised = error_of(function() clench.plan.anneal {hand = hand, object = hand.world.objects[1], steps = 10, energy = energy} end)
   t.ok(raised.place:find(("errors_test.lua:%d: "):format(here + 5), 1, true), raised)
   t.ok(raised.sentence:find "^clench%.rad: ", raised)
 end)
 
-test("an error that is raised again, and one out of a coroutine, keep their kind", function(t)
+test("an error that is raised again, and one from a coroutine, keep their kind", function(t)
   local function again() error(error_of(clench.load, "no.wld")) end
   t.equal(error_of(again).kind, "file")
   local ok, message = coroutine.resume(coroutine.create(function() clench.load "no.wld" end))
@@ -73,7 +73,7 @@ test("an error that is raised again, and one out of a coroutine, keep their kind
   t.equal(select(2, xpcall(clench.load, function(m) return m.kind end, "no.wld")), "file")
 end)
 
-test("a loop's progress is the loop, and shows nothing where nobody looks", function(t)
+test("progress iterates over a loop, and shows nothing without a terminal", function(t)
   local seen = {}
   for i, name in clench.progress({"a", "b", "c"}, "names") do seen[i] = name end
   t.equal(table.concat(seen), "abc")
@@ -88,7 +88,7 @@ test("a loop's progress is the loop, and shows nothing where nobody looks", func
   t.fails(function() clench.progress("many") end, "expected a number")
 end)
 
-test("a function of a module that is called with a colon is told so", function(t)
+test("a module's function called with a colon gives a hint", function(t)
   local dot = "whose functions are called with '.' and not ':'"
   t.fails(function() return clench:load "worlds/dlr_flask.wld" end, "clench.load: path: expected a string, got clench, " .. dot)
   t.fails(function() return clench.stats:mean {1, 2} end, "stats.mean: expected a list of numbers, got clench.stats, " .. dot)
@@ -97,7 +97,7 @@ test("a function of a module that is called with a colon is told so", function(t
   t.fails(function() return clench.load(setmetatable({}, {__name = "clenched"})) end, "got an empty table")
 end)
 
-test("what the standard library requires of the engine bears what a stranger gives it", function(t)
+test("internal modules of the standard library accept or reject foreign values", function(t)
   local raise, suggest = require "clench.raise", require "clench.suggest"
   t.equal(suggest("abc", 3), "")
   t.equal(suggest(nil, {"abc"}), "")
@@ -141,7 +141,7 @@ test("diagnostics have place and subject as values, and equal problems of a file
   t.equal({unknown.count, unknown.line, unknown.about}, {2, 1, "ignored"})
 end)
 
-test("what a written file does not hold is a diagnostic of that file", function(t)
+test("data that a written file does not hold are a diagnostic of that file", function(t)
   local path, written = test.path ".obj", test.path ".obj"
   clench.log.collect(clench.convert, "models/objects/cube.iv", path)
   local body = test.path(".xml", ("<root><geometryFile>%s</geometryFile><mass>500</mass></root>"):format(path))
@@ -169,7 +169,7 @@ test("logged messages are collected as values", function(t)
   for _, d in ipairs(list) do unknown = d.text:find "not known" and d or unknown end
   t.equal({unknown.severity, unknown.line, unknown.about}, {"warning", 9, "ignored"})
   t.ok(path:find(unknown.file, 1, true))
-  -- the sink and the level are as before, also after an error
+  -- the sink and the level are restored, also after an error
   t.fails(function() clench.log.collect(error, "broken") end, "broken")
   t.equal(clench.log.level(), "error")
   clench.log.error "heard"

@@ -1,4 +1,4 @@
--- Every binding is documented, and every example on its page runs and prints what the page says.
+-- Every binding is documented, and every example on its page runs and prints the result on the page.
 local test, doc, show = require "test", require "clench.host.doc", require "clench.show"
 local packed_docs = require "clench.signature.packed_docs"
 
@@ -7,7 +7,7 @@ os.tmpname = test.path
 
 local stage = dofile "tests/fuzz/stage.lua"
 
--- results as the console shows them, or "error: message"
+-- results as shown by the console, or "error: message"
 local function result_of(code, env)
   local chunk, message = load("return " .. code, "=example", "t", env)
   if not chunk then chunk, message = load(code, "=example", "t", env) end
@@ -51,11 +51,11 @@ for _, class in ipairs(all.classes) do
 end
 
 for _, entry in ipairs(packed_docs.functions(all.files)) do
-  -- most of the standard library is shown at work in the guide instead
+  -- most of the standard library has its examples in the guide instead
   if #doc.parse(entry.doc).examples > 0 then check("clench." .. entry.name, entry) end
 end
 
-test("every function that clench has is in the tables", function(t)
+test("every function of clench is in the tables", function(t)
   local known = {}
   for _, library in ipairs(all.libraries) do
     for _, entry in ipairs(library.functions) do known[library.name .. "." .. entry.name] = true end

@@ -1,7 +1,7 @@
--- Identity by content: what changes a fingerprint, and what does not.
+-- Identity by content: changes that affect a fingerprint, and changes that do not.
 local test, clench = require "test", require "clench"
 
-test("equal surfaces have equal fingerprints, whatever the order of their triangles", function(t)
+test("equal surfaces have equal fingerprints, for any order of their triangles", function(t)
   local world = clench.world()
   local box = clench.shapes.box {0.1, 0.2, 0.3}
   local function fingerprint(shape) return world:add_object(shape).mesh.fingerprint end
@@ -9,7 +9,7 @@ test("equal surfaces have equal fingerprints, whatever the order of their triang
   t.equal(#first, 16)
   local random = clench.random(5)
   for _ = 1, 20 do
-    -- vertices and triangles in another order, triangles from another corner
+    -- vertices and triangles in another order, triangles with another first corner
     local order, numbers, vertices, triangles = {}, {}, {}, {}
     for i = 1, #box.vertices do table.insert(order, random:integer(1, #order + 1), i) end
     for new, old in ipairs(order) do vertices[new], numbers[old] = box.vertices[old], new end
@@ -22,19 +22,19 @@ test("equal surfaces have equal fingerprints, whatever the order of their triang
   end
   t.ok(fingerprint(clench.shapes.mirror(clench.shapes.move(box, {0.01, 0, 0}), "x")) ~= first)
   t.ok(fingerprint(clench.shapes.box {0.1, 0.2, 0.3000001}) ~= first)
-  -- the format does not count where it keeps every digit
+  -- the format does not matter if it keeps every digit
   local path = test.path()
   for _, ending in ipairs {".obj", ".ply", ".off"} do
     world:add_object(box).mesh:save(path .. ending)
     t.equal(world:add_object(path .. ending, {unit = "m"}).mesh.fingerprint, first, ending)
     os.remove(path .. ending)
   end
-  -- a round solid is another thing than its triangles
+  -- a round solid differs from its triangles
   local ball = clench.shapes.sphere {0.05}
   t.ok(fingerprint(ball) ~= fingerprint {vertices = ball.vertices, triangles = ball.triangles})
 end)
 
-test("a body's fingerprint changes with its properties alone", function(t)
+test("a body's fingerprint changes only with its properties", function(t)
   local a, b = clench.world(), clench.world()
   b:add_object(clench.shapes.box {1, 1, 1})  -- materials and bodies in another order
   b:set_friction("chalk", "cheese", {static = 1, kinetic = 1})
@@ -52,7 +52,7 @@ test("a body's fingerprint changes with its properties alone", function(t)
   end
 end)
 
-test("a robot's fingerprint is that of its mechanism, and the one in a clone is found", function(t)
+test("a robot's fingerprint is that of its mechanism, and finds its copy in a clone", function(t)
   local world = clench.load "worlds/dlr_flask.wld"
   local hand = world.robots[1]
   local before = hand.fingerprint
@@ -98,7 +98,7 @@ local function warnings_of(f, ...)
   return texts
 end
 
-test("grasps carry the identity of hand, object, settings and engine in every list that is ours", function(t)
+test("grasps contain the identity of hand, object, settings and engine in all of Clench's list formats", function(t)
   local grasp, world, hand, box = held_box()
   t.equal(grasp.hand_fingerprint, hand.mechanism_fingerprint)
   t.equal(grasp.object_fingerprint, box.mesh.fingerprint)
@@ -123,7 +123,7 @@ test("grasps carry the identity of hand, object, settings and engine in every li
   t.ok(table.concat(warnings_of(list.save, list, path .. ".yaml")):find("fingerprints", 1, true))
 end)
 
-test("grasp:apply warns once of another hand or object, not of masses, materials and limits", function(t)
+test("grasp:apply warns once of another hand or object, but not of masses, materials and limits", function(t)
   local grasp, world, hand, box = held_box()
   box.mass, box.material, hand.bodies[2].mass = 2, "rubber", 3
   hand.pose = clench.pose {xyz = {1, 0, 0}}

@@ -1,4 +1,4 @@
--- Files and calls of tests/data/found, with which the fuzzers once broke a reader or a call, no longer break it.
+-- Files and calls of tests/data/found, which once crashed a reader or a call under the fuzzers, are handled.
 local test = require "test"
 local judge = dofile "tests/fuzz/judge.lua"
 local report = require "clench.report"

@@ -1,4 +1,4 @@
--- The parts of the fuzzers in tests/fuzz: what they make up, and what they find wrong.
+-- The parts of the fuzzers in tests/fuzz: generated calls, and detected faults.
 local test = require "test"
 local parse = dofile "tests/fuzz/types.lua"
 local judge = dofile "tests/fuzz/judge.lua"
@@ -31,7 +31,7 @@ test("a type of the docs becomes a tree", function(t)
   t.equal(parse "fun(level: string, text: string)".name, "function")
 end)
 
-test("the fuzzer knows every entry of the API, and the standard library's", function(t)
+test("the fuzzer knows every entry of the API, and of the standard library", function(t)
   local api, all, known = prepared_api(), clench.entries(), {}
   for _, name in ipairs(api.names) do known[name] = true end
   for _, library in ipairs(all.libraries) do
@@ -51,7 +51,7 @@ test("the fuzzer knows every entry of the API, and the standard library's", func
   t.ok(known["clench.wrench_space{contacts}"] and known["world:add_object{mass}"] and known["world_settings.camera ={eye}"])
 end)
 
-test("statements reach every entry and every key, and Lua reads them", function(t)
+test("statements reach every entry and every key, and Lua can parse them", function(t)
   local api, maker = prepared_api()
   math.randomseed(1)
   local made, left = statements.new(api, maker, true), {}
@@ -65,7 +65,7 @@ test("statements reach every entry and every key, and Lua reads them", function(
   for name in pairs(left) do t.ok(false, name .. " is never reached") end
 end)
 
-test("the examples of the pages are statements that run as they stand", function(t)
+test("the examples of the pages are statements that run unchanged", function(t)
   local examples, made = dofile "tests/fuzz/examples.lua", 0
   local env = {example = examples.runner(_G)}
   for _, step in ipairs(prepared_api().examples) do
@@ -89,7 +89,7 @@ test("every class of the dynamics, of planning and of studies has statements fro
   end
 end)
 
-test("a spoilt list of arguments has one part exchanged, and no key's name", function(t)
+test("a spoiled list of arguments has one part exchanged, and no key's name", function(t)
   math.randomseed(1)
   local seen = {}
   for _ = 1, 200 do seen[spoil("{radius = 0.1, from = {1, v[2].x}}, 'a', true", function() return "HOSTILE" end)] = true end
@@ -104,7 +104,7 @@ test("a spoilt list of arguments has one part exchanged, and no key's name", fun
   t.equal(spoil("", error), "")
 end)
 
-test("a message of a library, of Lua or without a subject is found, a sentence is not", function(t)
+test("a message of a library, of Lua or without a subject is detected, and a sentence is not", function(t)
   t.equal(judge.message "fuzz:1: hand:autograsp: speed: expected a number, got nil", nil)
   t.equal(judge.message "no such file: cube.iv", nil)
   for _, text in ipairs {"std::bad_alloc", "clench.load: vector::_M_range_check", "not enough memory", "it failed",
@@ -115,7 +115,7 @@ test("a message of a library, of Lua or without a subject is found, a sentence i
   t.equal(judge.message "fuzz:1: attempt to call a nil value", nil)
 end)
 
-test("a value that is not finite is found, wherever it stands", function(t)
+test("a value that is not finite is detected, at any depth", function(t)
   t.equal(judge.value({1, {x = 2, y = {3, clench.vec3(1, 2, 3)}}}, "f"), nil)
   t.equal(judge.value({1, {x = 0 / 0}}, "f"), "f")
   t.equal(judge.value({{-math.huge}}, "f"), "f")
@@ -131,7 +131,7 @@ test("findings of one cause have one signature", function(t)
   t.equal(crash("", 139), "exit code 139")
 end)
 
-test("the same seed changes a text alike, and most changes change it", function(t)
+test("the same seed changes a text in the same way, and most changes change it", function(t)
   local text, changed = ("v 1 2 3\nf 1 2 3\n"):rep(20), 0
   for seed = 1, 200 do
     math.randomseed(seed)

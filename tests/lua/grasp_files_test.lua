@@ -1,7 +1,7 @@
 local test = require "test"
 local clench = require "clench"
 
--- a closed hand of ours, and its grasp in a list
+-- a shipped hand, closed, and its grasp in a list
 local function closed()
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
   local hand, flask = world.robots[1], world.objects[1]
@@ -14,7 +14,7 @@ local function closed()
   return world, grasp, list
 end
 
-test("a table of grasps has the types that it was written with", function(t)
+test("a table of grasps keeps the types of its columns", function(t)
   local _, grasp, list = closed()
   local file = test.path ".csv"
   list:save(file)
@@ -28,7 +28,7 @@ test("a table of grasps has the types that it was written with", function(t)
   t.equal(clench.grasps(file)[1].labels.planner, "007")
 end)
 
-test("a grasp goes through every format that holds DOFs into a world where the object has another name", function(t)
+test("a grasp of every format with DOFs can be applied to a world where the object has another name", function(t)
   local _, grasp, list = closed()
   for _, one in ipairs {{".csv"}, {".npz"}, {".yaml"}, {".json", "multigripper"}} do
     local file = test.path(one[1])
@@ -44,7 +44,7 @@ test("a grasp goes through every format that holds DOFs into a world where the o
   end
 end)
 
-test("DOFs go by their names, and a name that no DOF has is refused", function(t)
+test("DOFs are found by their names, and an unknown name is rejected", function(t)
   local world, _, list = closed()
   local file = test.path ".yaml"
   list:save(file)
@@ -54,7 +54,7 @@ test("DOFs go by their names, and a name that no DOF has is refused", function(t
   t.fails(function() clench.grasps(file)[1]:apply(world) end, "the hand has no DOF 'nothing'")
 end)
 
-test("a grasp of no hand needs one, and one of that world", function(t)
+test("a grasp without a hand needs one, which must be in the given world", function(t)
   local world, _, list = closed()
   local file = test.path ".json"
   list:save(file, {format = "graspgen"})
@@ -67,7 +67,7 @@ test("a grasp of no hand needs one, and one of that world", function(t)
   t.equal(world.robots[1].dofs[1], before[1])
 end)
 
-test("numpy reads what we write, where there is one", function(t)
+test("numpy reads the written files, if it is installed", function(t)
   local _, grasp, list = closed()
   local file = test.path ".npz"
   list:save(file)
@@ -79,7 +79,7 @@ test("numpy reads what we write, where there is one", function(t)
   t.equal(clench.grasps(file)[1].hand_name, grasp.hand_name)
 end)
 
-test("DOFs that were edited and joints that were not contradict each other", function(t)
+test("edited DOFs that contradict unedited joints are rejected", function(t)
   local world, _, list = closed()
   local file = test.path ".jsonl"
   list:save(file)
@@ -100,7 +100,7 @@ test("DOFs that were edited and joints that were not contradict each other", fun
   t.fails(function() meters:apply(world) end, "expected a value in rad, got one in m")
 end)
 
-test("joints have the same names in a grasp, in its lists and in its scene, followers included", function(t)
+test("joints have the same names in a grasp, in its lists and in its scene, including followers", function(t)
   local world = clench.load("worlds/barrett_mug.wld", {root = "."})
   local hand, mug = world.robots[1], world.objects[1]
   hand:autograsp()
@@ -120,7 +120,7 @@ test("joints have the same names in a grasp, in its lists and in its scene, foll
     t.equal(again.hand_file, grasp.hand_file)
     t.equal(#again:apply(world).contacts, #grasp.contacts)
   end
-  -- isaac_grasp lists followers behind the DOFs
+  -- isaac_grasp lists followers after the DOFs
   list:save(path .. ".yaml")
   local isaac = clench.grasps(path .. ".yaml")[1]
   t.equal(isaac.dof_names, {"dof1", "dof2", "dof3", "dof4", "chain0_joint2", "chain1_joint0", "chain1_joint2", "chain2_joint1"})

@@ -34,7 +34,7 @@ local function warned(run)
   return said
 end
 
-test("DOFs without names are warned of, and dof_order gives their order", function(t)
+test("DOFs without names cause a warning, and dof_order gives their order", function(t)
   local world, hand = twin()
   local file = multigripper "0.11, 0.21, 0.12, 0.22"
   local grasp = clench.grasps(file)[1]
@@ -57,7 +57,7 @@ test("DOFs without names are warned of, and dof_order gives their order", functi
   t.ok(said[1] and said[1]:find("it names DOFs, for which dof_order is not used", 1, true), said[1])
 end)
 
-test("followers are listed beside their leaders, and those that do not follow are warned of", function(t)
+test("values of followers may be listed, and those that do not follow cause a warning", function(t)
   local world, hand = twin(true)
   local grasp = clench.grasps(multigripper("0.1, 0.3, 0.2, 0.2", '["a1", "b1", "a2", "b2"]'))[1]
   t.equal(#warned(function() grasp:apply(world) end), 0)

@@ -10,14 +10,14 @@ test("a set written as text and as XML is read back the same", function(t)
     hand.eigengrasps:save(path)
     local set = clench.files.eigengrasps(path)
     t.ok(#set == #hand.eigengrasps)
-    -- the file keeps the given vectors bit-exactly, and both sets normalize them alike
+    -- the file keeps the given vectors bit-exactly, and both sets normalize them in the same way
     for i, vector in ipairs(set.vectors) do t.close(vector, hand.eigengrasps.vectors[i], 0) end
     hand.eigengrasps = set
     t.close(hand.eigengrasps.origin, human().eigengrasps.origin, 0)
   end
 end)
 
-test("amplitudes that are set are the hand's, unless a limit is in the way", function(t)
+test("setting amplitudes sets those of the hand, unless a limit prevents it", function(t)
   local hand = human()
   for i = 0, 4 do
     local expected = {0.05 * i, -0.02 * i, 0.01, 0, 0, 0}
@@ -33,7 +33,7 @@ test("amplitudes that are set are the hand's, unless a limit is in the way", fun
   end
 end)
 
-test("kept posture: a DOF that no eigengrasp moves stays, and stays not without", function(t)
+test("in keep mode a DOF that no eigengrasp moves stays, and otherwise it does not", function(t)
   local hand = human()
   local vector = {}
   for d = 1, 20 do vector[d] = d > 10 and 1 or 0 end
@@ -49,7 +49,7 @@ test("kept posture: a DOF that no eigengrasp moves stays, and stays not without"
   t.ok(math.abs(hand.dofs[2] - 0.2) > 0.01)
 end)
 
-test("a hand moves towards amplitudes until it touches", function(t)
+test("a hand moves towards amplitudes until contact", function(t)
   local world = clench.load("worlds/human_flask.wld", {root = "."})
   local hand = world.robots[1]
   hand:open()
@@ -58,7 +58,7 @@ test("a hand moves towards amplitudes until it touches", function(t)
   t.ok(#world:colliding() == 0)
 end)
 
-test("sets and places follow clones and snapshots, and the hash knows them", function(t)
+test("eigengrasps and virtual contacts are part of clones, snapshots and the hash", function(t)
   local stage = clench.world()
   local hand = stage:add_robot "models/hands/human/human20.cfg"
   local before, moment, clone = stage:hash(), stage:snapshot(), stage:clone()
@@ -72,7 +72,7 @@ test("sets and places follow clones and snapshots, and the hash knows them", fun
   t.ok(stage:hash() == before)
 end)
 
-test("virtual contacts come back from files, on other hands of the kind too", function(t)
+test("virtual contacts are read back from files, also for other hands of the same kind", function(t)
   local hand, other = human(), human()
   hand.virtual_contacts = hand:find_virtual_contacts {count_per_link = 2}
   for _, ending in ipairs {".vgr", ".xml"} do
@@ -89,7 +89,7 @@ test("virtual contacts come back from files, on other hands of the kind too", fu
   end
 end)
 
-test("what is no virtual contact is refused by a sentence", function(t)
+test("invalid virtual contacts are rejected in one sentence", function(t)
   local hand, world = human(), clench.world()
   local box = world:add_object("models/objects/box.iv")
   t.fails(function() hand.virtual_contacts = 3 end, "virtual_contacts: expected a list of virtual contacts, got 3")
@@ -114,14 +114,14 @@ test("what is no virtual contact is refused by a sentence", function(t)
   t.fails(function() hand:find_virtual_contacts {object_material = "wod"} end, "wood")
 end)
 
-test("every hand of ours comes with eigengrasps and virtual contacts, and others are found near the pads", function(t)
+test("every shipped hand has eigengrasps and virtual contacts, and found ones are near the pads", function(t)
   for _, path in ipairs(clench.catalog().hands) do
     local world = clench.world()
     local hand = world:add_robot(path)
     t.ok(hand.eigengrasps.is_custom and #hand.eigengrasps >= 1, path)
     local found = hand:find_virtual_contacts()
     t.ok(#found >= 3, path)
-    -- a place faces the way that the closing hand carries it
+    -- the normal of a place points in the direction in which the closing hand moves it
     local before = {}
     hand:open()
     for i, c in ipairs(found) do before[i] = {c.point, c.normal} end
@@ -137,7 +137,7 @@ test("every hand of ours comes with eigengrasps and virtual contacts, and others
   end
 end)
 
-test("a virtual contact lies on a link of the hand, in its world", function(t)
+test("a virtual contact is on a link of the hand, in its world", function(t)
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
   local hand, flask = world.robots[1], world.objects[1]
   t.fails(function() hand:add_virtual_contact {link = flask, point = {0, 0, 0}, normal = {0, 0, 1}} end, "is no link of robot")
@@ -155,12 +155,12 @@ test("a fixed amplitude stays while others are set", function(t)
   -- sums of twenty products of numbers below two
   t.close(hand.amplitudes, {0.1, 0.1, 0, 0.05, 0, 0}, 1e-13)
   hand:move_amplitudes({0, 0, 0, 0, 0, 0}, {fixed = {1}})
-  t.close(hand.amplitudes[1], 0.1, 1e-9)  -- where a drive ends, it is within its own tolerance
+  t.close(hand.amplitudes[1], 0.1, 1e-9)  -- final values of a drive are within its tolerance
   t.fails(function() hand:set_amplitudes({0, 0, 0, 0, 0, 0}, {fixed = {7}}) end, "fixed: expected one of 6 eigengrasps, got 7")
   t.fails(function() hand:set_amplitudes({0, 0, 0, 0, 0, 0}, {fixed = {1.5}}) end, "fixed: expected one of 6 eigengrasps, got 1.5")
 end)
 
-test("virtual contacts that were made for another hand are taken with a warning", function(t)
+test("virtual contacts that were made for another hand are accepted with a warning", function(t)
   local said = {}
   local hand, other = human(), clench.world():add_robot "models/hands/human/human16.cfg"
   local function give(list)

@@ -1,4 +1,4 @@
--- Two fingers that one motor closes: what they may hold, where they begin, how they give way, and what a report says when nothing fits.
+-- Two fingers closed by one motor: feasible grasps, starts, compliance, and the report when nothing fits.
 local test, clench = require "test", require "clench"
 local closing, facing, give_way = require "clench.plan.closing", require "clench.plan.facing", require "clench.plan.give_way"
 local opposition, pads, starts = require "clench.plan.opposition", require "clench.plan.pads", require "clench.plan.starts"
@@ -26,7 +26,7 @@ test("points face each other across the wall of a vessel, its neck, and the slop
   t.ok(walls > 100 and necks > 10 and slopes > 10, ("%d %d %d"):format(walls, necks, slopes))
 end)
 
-test("pads tell how wide grippers open, and where they hold", function(t)
+test("pads determine the opening width of grippers, and where they hold", function(t)
   for name, expected in pairs {parallel_jaw = {0.08, 0.115}, adaptive_gripper = {0.0846, 0.130}} do
     local hand = clench.world():add_robot(("models/hands/%s/%s.cfg"):format(name, name))
     local before = hand.world:hash()
@@ -52,7 +52,7 @@ test("the adaptive gripper's pads stay parallel from an opening of 85 mm to clos
   t.equal(tip.elastic_modulus, 1.5e6)
 end)
 
-test("jaws begin where what is in the way leaves the pads room to get there", function(t)
+test("jaws start only where the pads can get past the obstacles", function(t)
   local hand, mug = scene("adaptive_gripper", "models/objects/mug.iv")
   local job = new_job("plan.sample", {hand = hand, object = mug, seed = 1}, function(read)
     for _, option in ipairs(read.fields) do read:raw(option.name) end
@@ -62,7 +62,7 @@ test("jaws begin where what is in the way leaves the pads room to get there", fu
   local free, blocked = 0, 0
   for i = 1, 60 do
     local state = next_start(i)
-    -- starts whose hand moves on until the palm touches are left out
+    -- omits starts whose hand moves on until the palm touches
     if state.reach < standoff + 0.03 then
       local direction = state.pose:rotate(clench.vec3(0, 0, 1))
       state = {pose = clench.pose {xyz = direction * state.reach} * state.pose, dofs = state.dofs}
@@ -72,14 +72,14 @@ test("jaws begin where what is in the way leaves the pads room to get there", fu
   t.ok(free >= 30 and blocked == 0, free .. " " .. blocked)
 end)
 
-test("jaws are hands whose fingers all close by one motor", function(t)
+test("jaws are hands whose fingers are all closed by one motor", function(t)
   for path, expected in pairs {["parallel_jaw/parallel_jaw"] = true, ["adaptive_gripper/adaptive_gripper"] = true, ["robonaut/robonaut"] = false,
                                ["barrett/barrett"] = false} do
     t.equal(give_way.are_jaws(clench.world():add_robot(("models/hands/%s.cfg"):format(path))), expected)
   end
 end)
 
-test("jaws turn to where they come closest", function(t)
+test("jaws turn to the narrowest direction", function(t)
   local hand, bar = scene("parallel_jaw", clench.shapes.box {0.03, 0.06, 0.06})
   hand.pose = clench.pose {axis = {0, 0, 1}, angle = 0.05} * clench.pose {xyz = {0.004, 0, 1 - 0.115}}
   local start, dofs = hand.pose, (starts.opened(hand))
@@ -92,7 +92,7 @@ test("jaws turn to where they come closest", function(t)
   t.ok(not give_way.touches_one_side(hand, bar))
 end)
 
-test("the adaptive gripper has verified grasps of mug, banana and tin, and tries warn of nothing", function(t)
+test("the adaptive gripper has verified grasps of mug, banana and tin, and tries cause no warning", function(t)
   local said, before = 0, clench.log.level()
   clench.log.sink(function() said = said + 1 end)
   local counts = {}
@@ -127,7 +127,7 @@ local gripper = [[<robot name="slides">
     <limit lower="0" upper="0.04" effort="70" velocity="0.2"/><mimic joint="slide"/></joint>
 </robot>]]
 
-test("a gripper of URDF, two boxes that slide, holds what fits between them", function(t)
+test("a gripper of URDF, two sliding boxes, holds an object that fits between them", function(t)
   local path = test.path(".urdf", gripper)
   local world = clench.world()
   local hand = world:add_robot(path)
@@ -136,7 +136,7 @@ test("a gripper of URDF, two boxes that slide, holds what fits between them", fu
   t.ok(#run.grasps >= 5, tostring(run.report))
 end)
 
-test("a report says that nothing fits between the pads, and how far the best grasp is too weak", function(t)
+test("a report explains that nothing fits between the pads, and how far the best grasp is too weak", function(t)
   local hand, ball = scene("adaptive_gripper", clench.shapes.sphere {0.06}, {name = "ball"})
   local run = clench.plan.sample {hand = hand, object = ball, candidates = 16}
   t.equal(#run.grasps, 0)
@@ -151,7 +151,7 @@ test("a report says that nothing fits between the pads, and how far the best gra
   t.ok(not words:find("wider", 1, true), words)
 end)
 
-test("jaws that are clear of one side by less than the contact threshold press on command", function(t)
+test("jaws with a gap below the contact threshold on one side press on command", function(t)
   local hand, box = scene("parallel_jaw", clench.shapes.box {0.04, 0.04, 0.06}, {mass = 0.1, material = "wood"})
   local middle = hand.pose:inverse() * hand.approach.point + clench.vec3(0, 0, 0.05)
   for _, aside in ipairs {0, 3e-5, -3e-5} do

@@ -1,4 +1,4 @@
--- Functions that run beside the script: their states, results, events and ends.
+-- Functions that run in parallel to the script: their states, results, events and ends.
 local test, clench = require "test", require "clench"
 
 local function scene()
@@ -6,7 +6,7 @@ local function scene()
   return world, world.robots[1], world.objects[1]
 end
 
-test("a job returns what its function returns, and all its events in order", function(t)
+test("a job returns the results of its function, and all its events in order", function(t)
   local job = clench.job(function(n, word)
     local clench = require "clench"
     for i = 1, n do
@@ -26,10 +26,10 @@ test("a job returns what its function returns, and all its events in order", fun
   t.equal(job.snapshot, {square = 250000})
   t.equal(job.state, "done")
   job:stop()
-  t.equal(job.state, "done")  -- what is over stays as it is
+  t.equal(job.state, "done")  -- a finished job stays as it is
 end)
 
-test("a job works on copies, and gives the same bits as the script", function(t)
+test("a job works on copies, and gives results bit-identical to the script's", function(t)
   local world, hand, mug = scene()
   local before = world:hash()
   local job = clench.job(function(h, m)
@@ -50,13 +50,13 @@ test("a job works on copies, and gives the same bits as the script", function(t)
   local dofs = job:result()
   t.equal(world:hash(), before)
   local same, dofs_of_other = together:result()
-  t.ok(same)  -- what one argument holds stays together
+  t.ok(same)  -- objects of one argument stay in one world
   hand:autograsp()
   t.equal(dofs_of_other, hand.dofs)
   t.equal(#dofs, #hand.dofs)
 end)
 
-test("errors of a job reach whoever asks for its result", function(t)
+test("errors of a job are raised when its result is requested", function(t)
   local job = clench.job(function() error "no luck" end, {name = "lottery"})
   job:wait(10)
   t.equal(job.state, "failed")
@@ -168,7 +168,7 @@ test("progress of a job is a value", function(t)
   job:stop()
 end)
 
-test("more jobs than cores are queued, jobs of jobs do not block them, and dropped ones run on", function(t)
+test("more jobs than cores are queued, jobs of jobs do not block them, and unreferenced ones continue", function(t)
   local jobs, sum = {}, 0
   for i = 1, 12 do
     jobs[i] = clench.job(function(n)
@@ -209,7 +209,7 @@ test("more jobs than cores are queued, jobs of jobs do not block them, and dropp
   t.equal(file:read "a", "written")
 end)
 
-test("a program ends, whatever its jobs do", function(t)
+test("a program ends whatever its jobs do", function(t)
   local log = test.path ".log"
   os.execute(("readlink /proc/$PPID/exe > '%s'"):format(log))
   local file <close> = io.open(log)
@@ -223,7 +223,7 @@ test("a program ends, whatever its jobs do", function(t)
   end
 end)
 
-test("a job ends with the programs that it waits for", function(t)
+test("stopping a job ends the programs that it waits for", function(t)
   local function is_alive(mark)
     for line in io.popen "ps -eo args" :lines() do
       if line:find(mark, 1, true) and not line:find "ps -eo" then return true end
@@ -243,7 +243,7 @@ test("a job ends with the programs that it waits for", function(t)
   t.equal(is_alive(mark), false)
 end)
 
-test("threads of jobs and of maps let the script come first where it asks for that", function(t)
+test("threads of jobs and of maps have a lower priority than the script on request", function(t)
   local function nice()
     local fields = {}
     for word in io.open "/proc/thread-self/stat":read "a":match "%) (.*)":gmatch "%S+" do fields[#fields + 1] = word end

@@ -51,7 +51,7 @@ test("robots are logged by their DOFs", function(t)
   t.equal(log.rows[6][hand.name .. ".dofs[3]"], hand.dofs[3])
 end)
 
-test("what cannot be logged is said in a sentence", function(t)
+test("values that cannot be logged are reported in one sentence", function(t)
   local world, box = thrown_box()
   local function refused(options, text) t.fails(function() world:log(options) end, text) end
   refused(nil, "world:log: expected one table of options")
@@ -80,14 +80,14 @@ test("what cannot be logged is said in a sentence", function(t)
   t.equal(clench.files.arrays "build/log_test_small.npz", numbers)
   t.fails(function() clench.files.save_arrays("build/a.npz", {a = {1}}, {compres = true}) end, "unknown key 'compres'")
   t.fails(function() clench.files.save_arrays("build/a.npz", {a = 1}) end, "a: expected a list of numbers, or of rows of them, got 1")
-  -- of many faults the first by name, whatever the order of the table
+  -- of many faults the first by name, for any order of the table
   local many = {}
   for i = 1, 40 do many["array" .. 140 - i] = i end
   t.fails(function() clench.files.save_arrays("build/a.npz", many) end, "array100: expected a list")
   t.fails(function() clench.files.save_arrays("build/a.npz", {[true] = {1}, a = {1}}) end, "arrays: expected names as keys, got true")
 end)
 
-test("a run is repeated to the bit, from a snapshot and from the stack", function(t)
+test("a run is repeated bit-exactly, from a snapshot and from the stack", function(t)
   local world, box = thrown_box()
   world:run(0.13)
   local moment = world:snapshot()
@@ -102,7 +102,7 @@ test("a run is repeated to the bit, from a snapshot and from the stack", functio
   local here = world:hash()
   world:run(0.4)
   t.equal(world:hash(), there)
-  -- the stack is one: last in, first out
+  -- the states form a stack: last in, first out
   world:restore(moment)
   world:push()
   box.pose = clench.pose {xyz = {0, 0, 3}}
@@ -146,7 +146,7 @@ local function recorded()
   return film, world
 end
 
-test("a recording has the states of its times, and leaves the world alone", function(t)
+test("a recording has the states of its times, and leaves the world unchanged", function(t)
   local film, world = recorded()
   t.equal(#film.times, 7)
   local before, z = world:hash(), {}
@@ -166,7 +166,7 @@ test("a recording has the states of its times, and leaves the world alone", func
   t.fails(function() world:record {}:save "a.gif" end, "it is empty")
 end)
 
-test("films are pictures, a GIF, and whatever ffmpeg makes of them", function(t)
+test("films are pictures, a GIF, or videos made by ffmpeg", function(t)
   local film = recorded()
   local ok, why = pcall(film.save, film, "build/film_.gif", {size = {96, 72}})
   if not ok then
@@ -181,7 +181,7 @@ test("films are pictures, a GIF, and whatever ffmpeg makes of them", function(t)
     t.equal(file_bytes(path):sub(2, 4), "PNG")
     os.remove(path)
   end
-  -- a program that tells what it was asked
+  -- a program that writes its arguments
   local program = test.path("", "#!/bin/sh\necho \"$@\" > build/ffmpeg_asked\n")
   os.execute("chmod +x " .. program)
   t.equal(film:save("build/it's a film.mp4", {size = {64, 48}, ffmpeg = program, speed = 0.5}), 7)
@@ -233,7 +233,7 @@ test("in Chromium a recorded run plays in 3-D", function(t)
   t.ok(tonumber(text:match ' data%-drawn="(%d+)"') > 20)
 end)
 
-test("a run whose first observer restores another time lasts as long as it was asked to", function(t)
+test("a run whose first observer restores another time has the requested duration", function(t)
   local world = clench.world()
   local start = world:snapshot()
   world:run(0.5)

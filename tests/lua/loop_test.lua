@@ -1,4 +1,4 @@
--- The event loop: coroutines that wait, in order, and what ends them.
+-- The event loop: coroutines that wait, their order and their ends.
 local test, clench = require "test", require "clench"
 local loop = clench.loop
 
@@ -9,14 +9,14 @@ test("coroutines wait for times, in order", function(t)
   t.equal(order, {})
   loop.run()
   t.equal(table.concat(order), "abcd")
-  -- equal times: in the order of their start
+  -- equal times: in the order of creation
   order = {}
   for i = 1, 20 do loop.spawn(function() loop.sleep(0) order[#order + 1] = i coroutine.yield() order[#order + 1] = i end) end
   loop.run()
   for i = 1, 40 do t.equal(order[i], (i - 1) % 20 + 1) end
 end)
 
-test("a queue of times gives its things in the order of times and numbers, whatever is removed meanwhile", function(t)
+test("a time queue returns its items in the order of times and numbers, also after removals", function(t)
   local queue, random, left = require "clench.time_queue"(), clench.random(5), {}
   local function check(now)
     local expected = {}
@@ -45,7 +45,7 @@ test("a queue of times gives its things in the order of times and numbers, whate
   t.equal(queue:first_time(), nil)
 end)
 
-test("the cost of waiting grows no faster than the number of coroutines, whatever their times", function(t)
+test("the cost of waiting grows at most linearly with the number of coroutines, for any times", function(t)
   local function cost(count)
     local random, began = clench.random(1), os.clock()
     for _ = 1, count do
@@ -56,7 +56,7 @@ test("the cost of waiting grows no faster than the number of coroutines, whateve
     return os.clock() - began
   end
   local few = math.min(cost(1000), cost(1000))
-  t.ok(cost(10000) < 40 * few)  -- ten times as many; 100 where each turn looks at all
+  t.ok(cost(10000) < 40 * few)  -- ten times as many; a factor of 100 if each turn visits all
 end)
 
 test("run ends in time, when it is stopped, and when nothing is left", function(t)
@@ -78,7 +78,7 @@ test("run ends in time, when it is stopped, and when nothing is left", function(
   loop.run(0)
 end)
 
-test("outside of its coroutines sleep and wait run the loop", function(t)
+test("sleep and wait run the loop if called outside of its coroutines", function(t)
   local heard = false
   loop.spawn(function() loop.sleep(0.01) heard = true end)
   local began = loop.time()
@@ -115,7 +115,7 @@ test("a coroutine that removes itself ends at its next wait", function(t)
   t.equal(task.status, "removed")
 end)
 
-test("an error of a coroutine names it and its line, and the others run on", function(t)
+test("an error of a coroutine names it and its line, and the others continue", function(t)
   local after = false
   local broken = loop.spawn(function() loop.sleep(0) error "broken" end)
   loop.spawn(function() loop.sleep(0.01) after = true end)

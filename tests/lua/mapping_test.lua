@@ -13,7 +13,7 @@ local function barrett()
   return device, simulated
 end
 
-test("a glove sets the DOFs that are mapped, within their limits", function(t)
+test("a glove sets the mapped DOFs, within their limits", function(t)
   local _, hand = scene()
   local calibration = {slopes = {{0.01, 0}, {0, 0.1}}, intercepts = {-0.5, 0}}
   hand.dofs = {0.3, 0.4, 0.5, 0.6}
@@ -28,7 +28,7 @@ test("a glove sets the DOFs that are mapped, within their limits", function(t)
   t.fails(function() clench.devices.glove_map {hand = hand, calibration = calibration} "x" end, "expected a list of raw sensors, got 'x'")
 end)
 
-test("a fuzzy grasp without collisions is where the readings say", function(t)
+test("a fuzzy grasp without collisions has the values of the readings", function(t)
   local _, hand = scene()
   local pose = clench.pose {xyz = {0, 0, 0.2}} * hand.pose
   local got = clench.devices.fuzzy_grasp {hand = hand, pose = pose, dofs = {0.1, 0.2, 0.3, 0.4}}
@@ -37,7 +37,7 @@ test("a fuzzy grasp without collisions is where the readings say", function(t)
   t.close(hand.dofs[4], 0.4, 1e-12)
 end)
 
-test("fingers within an object are opened until they touch it", function(t)
+test("fingers inside an object are opened until they touch it", function(t)
   local world, hand = scene()
   local got = clench.devices.fuzzy_grasp {hand = hand, pose = hand.pose, dofs = {0, 2, 2, 2}}
   t.equal(got.ok, true)
@@ -52,11 +52,11 @@ test("fingers within an object are opened until they touch it", function(t)
   end
 end)
 
-test("a palm within an object is backed off until it touches, or the hand stays where it was", function(t)
+test("a palm inside an object is backed off until it touches, or the hand keeps its pose", function(t)
   local world, hand = scene()
   world:remove(world.objects[1])
   local post = world:add_object(clench.shapes.box {0.03, 0.03, 0.1}, {pose = {xyz = {0, 0, 0.02}}})
-  -- the pose at which the palm touches, and those that lie deeper
+  -- poses deeper than the one at which the palm touches
   local down = hand.approach.direction
   local start = hand.pose
   hand.dofs = {0, 0, 0, 0}
@@ -76,7 +76,7 @@ test("a palm within an object is backed off until it touches, or the hand stays 
   t.fails(function() clench.devices.fuzzy_grasp {hand = hand, pose = hand.pose, back_off = 0} end, "back_off must be a number > 0")
 end)
 
-test("a simulated hand follows a real one until it touches something", function(t)
+test("a simulated hand follows a real one until contact", function(t)
   local world, hand = scene()
   local device, simulated = barrett()
   local mirror = clench.devices.mirror {hand = hand, device = device}
@@ -115,7 +115,7 @@ test("a real hand follows a simulated one, within limits and speed", function(t)
   simulated:close()
 end)
 
-test("signs and offsets of a mirror hold both ways, and wrong options are errors", function(t)
+test("signs and offsets of a mirror apply in both directions, and wrong options are errors", function(t)
   local _, hand = scene()
   local values = {0.5, 0.1}
   local device = {read_positions = function() return {table.unpack(values)} end, write_positions = function(_, sent) values = sent end}

@@ -55,7 +55,7 @@ local function closed(name, options)
   return grasp
 end
 
-test("manipulability is the volume of what DOFs of length one do to the object, by plain elimination", function(t)
+test("manipulability is the volume of object motions of unit DOF motions, by plain elimination", function(t)
   for _, name in ipairs {"dlr_flask", "human_flask"} do
     local grasp = closed(name, {soft = false})
     local map = grasp:grasp_map()
@@ -73,7 +73,7 @@ test("manipulability is the volume of what DOFs of length one do to the object, 
   end
 end)
 
-test("all measures of grasps of many contacts come in time, and are the same however they are asked", function(t)
+test("all measures of grasps of many contacts are computed in time, and do not depend on the way of the query", function(t)
   for _, name in ipairs {"human_flask", "shadow_bottle", "tendon_cylinder"} do
     local grasp, again = closed(name), closed(name)
     local all = grasp:quality_all()
@@ -84,7 +84,7 @@ test("all measures of grasps of many contacts come in time, and are the same how
   end
 end)
 
-test("a measure that cannot be had leaves the others, and a grasp can be printed", function(t)
+test("a measure that cannot be computed does not affect the others, and a grasp can be printed", function(t)
   local grasp = closed("dlr_flask", {edges = 100})
   local all = grasp:quality_all()
   t.ok(all.epsilon > 0 and all.volume == nil)
@@ -92,7 +92,7 @@ test("a measure that cannot be had leaves the others, and a grasp can be printed
   t.fails(function() grasp:quality "volume" end, "more than 1000000 facets")
 end)
 
-test("what of the world a measure asks must stand as it did", function(t)
+test("measures that depend on the world reject a changed world", function(t)
   local grasp = closed "dlr_flask"
   local epsilon = grasp:quality "epsilon"
   grasp.hand:open()
@@ -108,7 +108,7 @@ test("what of the world a measure asks must stand as it did", function(t)
   t.fails(function() grasp:contact_forces {} end, "the object's center of mass has changed since it was measured; measure it anew")
 end)
 
-test("directions of any length, and thin ellipsoids", function(t)
+test("resistance accepts directions of any length, and thin ellipsoids", function(t)
   local grasp = closed "dlr_flask"
   local once = grasp:resistance {wrench = {0, 0, -1, 0, 0, 0}}
   for _, size in ipairs {1e-12, 1e-9, 1e9} do
@@ -119,7 +119,7 @@ test("directions of any length, and thin ellipsoids", function(t)
   t.fails(function() grasp:resistance {wrenches = {}} end, "wrenches: expected at least one, got none")
 end)
 
-test("limits of torques count where they are asked for", function(t)
+test("torque limits are used on request", function(t)
   local grasp = closed "dlr_flask"
   local load = {0, 0, -200, 0, 0, 0}
   local function status(more)
@@ -135,7 +135,7 @@ test("limits of torques count where they are asked for", function(t)
   t.equal(status {unilateral = true}, status {unilateral = true, torque_limits = high})
 end)
 
-test("a task of no wrench resists nothing, and what is no list of numbers is told from one", function(t)
+test("an empty list of wrenches resists nothing, and values that are not lists are rejected", function(t)
   local grasp = closed "dlr_flask"
   local none = {0, 0, 0, 0, 0, 0}
   t.fails(function() grasp:resistance {wrench = none} end, "wrench: expected a wrench that is not zero: there is nothing to resist")
@@ -157,7 +157,7 @@ test("measures of position, direction and normals are in quality_all", function(
   t.ok(all.coplanarity >= 0 and all.coplanarity <= math.sqrt(1 / 3) + 1e-12)
 end)
 
-test("penetration sees a bar through a cylinder, crossed bars, a plate, and cubes without a corner inside", function(t)
+test("penetration detects a bar through a cylinder, crossed bars, a plate, and cubes without inner corners", function(t)
   local shapes = clench.shapes
   local bar = shapes.box {0.01, 0.01, 0.1}
   local function depth(inner, outer, xyz, rpy)

@@ -7,7 +7,7 @@ local function add(text, options)
   return clench.world():add_object(test.path(".obj", text), options)
 end
 
-test("the unit of a mesh is guessed, or given by name or by length", function(t)
+test("the unit of a mesh is inferred, or given by name or by length", function(t)
   local function size(options) return add(points .. faces, options).mesh.bounds.high.x end
   t.close(size(), 0.12, 1e-15)
   t.close(size{unit = "cm"}, 1.2, 1e-14)
@@ -17,7 +17,7 @@ test("the unit of a mesh is guessed, or given by name or by length", function(t)
   t.fails(function() add(points .. faces, {unit = "yard"}) end, "unknown unit 'yard'")
 end)
 
-test("a guess is logged, and what is given is not", function(t)
+test("an inferred unit is logged, and a given one is not", function(t)
   local lines = {}
   clench.log.sink(function(level, message) lines[#lines + 1] = level .. " " .. message end)
   add(points .. faces)
@@ -30,13 +30,13 @@ test("a guess is logged, and what is given is not", function(t)
   t.ok(lines[2]:find("info .*: no mass and no material is given; 0.3 kg of wood is assumed"), lines[2])
   t.ok(lines[3]:find("info .*: no inertia is given; that of a solid of one density is assumed"), lines[3])
   t.ok(lines[4]:find("info .*: no inertia is given"), lines[4])
-  -- a density is one
+  -- a density is used
   t.ok(lines[5]:find("info .*: no material is given; wood is assumed"), lines[5])
   t.ok(lines[6]:find("info .*: no mass is given; 0.3 kg is assumed"), lines[6])
   t.ok(lines[7]:find("info .*: no inertia is given"), lines[7])
 end)
 
-test("density weighs closed meshes only, and not together with a mass", function(t)
+test("density applies only to closed meshes, and not together with a mass", function(t)
   t.close(add(points .. faces, {density = 500}).mass, 500 * 0.12 ^ 3 / 6, 1e-12)
   local open = points .. "f 1 3 2\nf 1 2 4\nf 1 4 3\n"
   t.fails(function() add(open, {density = 500}) end, "density: expected a watertight mesh, got one with 3 open edges; give its mass")
@@ -58,7 +58,7 @@ test("a mesh's report counts what was read and repaired", function(t)
   t.equal(clench.world():add_object(clench.shapes.box {1, 1, 1}).mesh_report, nil)
 end)
 
-test("a mesh of the script's own takes a unit, too, and a wrong key is its own", function(t)
+test("a mesh made by the script accepts a unit, too, and unknown keys of it are rejected", function(t)
   local mesh = clench.shapes.box {1, 2, 3}
   local box = clench.world():add_object(mesh, {unit = "mm"})
   t.close(box.mesh.bounds.high.z, 0.0015, 1e-18)
@@ -82,7 +82,7 @@ test("missing meshes for display are reported once, in one sentence", function(t
   end
   t.equal(#missing, 1)
   t.ok(missing[1]:find "mesh: no such file: no/1.stl; it and 4 other meshes are not drawn", missing[1])
-  -- without a sink, what a file said is not printed again when it is loaded again
+  -- without a sink, messages of a file are not printed again when it is loaded again
   local code = ("local w = require 'clench'.world() w:add_robot('%s') w:add_robot('%s', {name = 'again'})"):format(path, path)
   local script, log = test.path(".lua", code), test.path ".log"
   os.execute(("readlink /proc/$PPID/exe > '%s'"):format(log))

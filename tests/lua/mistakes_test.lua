@@ -5,7 +5,7 @@ local test = require "test"
 test("degrees and millimeters in a pose are reported once, with the script's line", function(t)
   local world = clench.world {}
   local box = clench.shapes.box {0.1, 0.1, 0.1}
-  -- within a turn and ten meters nothing is
+  -- within a turn and ten meters nothing is reported
   t.equal(#t.warnings(function() clench.pose {rpy = {0, -6.28, 3}, xyz = {10, 0, -10}} end), 0)
   local said = t.warnings(function()
     for _ = 1, 2 do world:add_object(box, {pose = {rpy = {0, 0, 90}, xyz = {300, 0, 0}}}) end
@@ -17,7 +17,7 @@ test("degrees and millimeters in a pose are reported once, with the script's lin
   t.ok(said[2]:find("world:add_object: pose: it is 300 m away: meters? clench.mm(300) is 0.3", 1, true), said[2])
 end)
 
-test("a standoff in millimeters is told, and so is what a pose may be given by", function(t)
+test("a standoff in millimeters is reported, and so are the forms of a pose", function(t)
   local hand = clench.load("worlds/barrett_mug.wld").robots[1]
   t.fails(function() clench.pose {x = {1, 0, 0}} end,
           "unknown key 'x', expected one of axis, angle, x_axis, y_axis, z_axis, rpy, quat, matrix, xyz")
@@ -27,11 +27,11 @@ test("a standoff in millimeters is told, and so is what a pose may be given by",
     clench.log.sink(function(_, text) said = text end)
     clench.load("worlds/barrett_mug.wld").robots[1]:place_approach({0, 0, 0}, {0, 0, -1}, 50)
     return said
-  end, {1})  -- in a state of its own, for it is told once in each
+  end, {1})  -- in a separate state, because it is reported once per state
   t.ok(said[1]:find("hand:place_approach: standoff: it is 50 m away: meters? clench.mm(50) is 0.05", 1, true), said[1])
 end)
 
-test("a slip in the name of a material is told once, and a new material is none", function(t)
+test("a typo in the name of a material is reported once, and a new material is not", function(t)
   local said = t.warnings(function()
     local world = clench.world {}
     world:set_friction("cork", "wood", {static = 0.7})
@@ -43,7 +43,7 @@ test("a slip in the name of a material is told once, and a new material is none"
   t.ok(said[1]:find("world:set_friction: 'glas' is a new material; did you mean 'glass'?", 1, true), said[1])
 end)
 
-test("unknown keys name the nearest, and all when they are few", function(t)
+test("an unknown key is answered with the nearest, or with all if these are few", function(t)
   local world = clench.load "worlds/dlr_flask.wld"
   local hand = world.robots[1]
   t.fails(function() hand:autograsp {sped = 1} end,
@@ -64,7 +64,7 @@ test("unknown keys name the nearest, and all when they are few", function(t)
   t.fails(function() return hand:link "dlr_chain3_lnik2" end, "; did you mean 'dlr_chain3_link2'?")
 end)
 
-test("an assignment to a name of a library is an error that says how the name is used", function(t)
+test("an assignment to a name of a library is an error that explains the use of the name", function(t)
   local function fails(key, library, message) t.fails(function() library[key] = "error" end, message) end
   fails("level", clench.log, "clench.log.level cannot be set: it is a function; call clench.log.level(name)")
   fails("version", clench, "clench.version cannot be set: it is read only")
@@ -78,7 +78,7 @@ test("an assignment to a name of a library is an error that says how the name is
   fails("mean", clench.stats, "clench.stats.mean cannot be set: it is a function; call it")
   t.fails(function() return clench.stats.maen end, "clench.stats has no 'maen'; did you mean 'mean'?")
   t.equal(clench.log.level(), "info")
-  -- libraries list themselves as before
+  -- the contents of libraries can be listed
   local names = {}
   for name, value in pairs(clench.log) do names[name] = type(value) end
   t.equal(names, {collect = "function", debug = "function", info = "function", warning = "function", error = "function", level = "function", sink = "function"})
@@ -87,7 +87,7 @@ test("an assignment to a name of a library is an error that says how the name is
   t.ok(seen)
 end)
 
-test("a list of bodies or robots that is asked for a name says how one is found", function(t)
+test("indexing a list of bodies or robots by a name is answered with the method that finds one", function(t)
   local world = clench.load("worlds/dlr_flask.wld")
   local hand = world.robots[1]
   local function fails(list, key, message) t.fails(function() return list[key] end, message) end
@@ -107,7 +107,7 @@ test("a list of bodies or robots that is asked for a name says how one is found"
   t.ok(tostring(world.robots):find "^{robot", tostring(world.robots))
 end)
 
-test("a posture beyond the limits stops there, and says which DOFs did; degrees are doubted", function(t)
+test("a posture beyond the limits is clamped and names the DOFs, and degrees cause a warning", function(t)
   local world = clench.load("worlds/barrett_mug.wld")
   local hand = world.robots[1]
   local stopped
@@ -118,7 +118,7 @@ test("a posture beyond the limits stops there, and says which DOFs did; degrees 
   t.equal(hand:set_posture(hand.pose, {0, 1, 1, 1}), nil)
 end)
 
-test("an assignment to a part of a copied table is an error that says what to write", function(t)
+test("an assignment to a part of a copied table is an error that suggests the correct form", function(t)
   local world = clench.load "worlds/dlr_flask.wld"
   local hand = world.robots[1]
   local before = hand.dofs

@@ -1,4 +1,4 @@
--- Scenes of MuJoCo move as MuJoCo says.
+-- Scenes of MuJoCo move as in MuJoCo.
 local clench, test = require "clench", require "test"
 
 local function load(xml)
@@ -22,7 +22,7 @@ test("a link comes to rest on its fixed parent", function(t)
   t.close(world.robots[1].dofs[1], 0.0933, 5e-3)
 end)
 
-test("geoms without bits fall through", function(t)
+test("geoms without collision bits fall through the floor", function(t)
   local world = load [[<worldbody><geom type="plane" size="1 1 1"/><body name="base" pos="0 0 1">
     <body name="arm"><joint name="j" axis="0 1 0"/><geom type="capsule" size="0.02" fromto="0.1 0 0 1.5 0 0"
     contype="0" conaffinity="0"/></body></body></worldbody>]]

@@ -41,7 +41,7 @@ for _, path in ipairs(catalog.arms) do
   end)
 end
 
-test("the catalog holds hands, arms, objects, obstacles and worlds", function(t)
+test("the catalog contains hands, arms, objects, obstacles and worlds", function(t)
   for shelf, least in pairs {hands = 9, arms = 2, objects = 17, obstacles = 5, worlds = 13} do
     t.ok(#catalog[shelf] >= least, shelf .. ": " .. #catalog[shelf])
   end
@@ -83,7 +83,7 @@ for _, name in ipairs {"gallery", "ur5_jaw_shelf", "puma_barrett_glass"} do
   test("nothing collides in " .. name .. " and nothing is mounted askew", function(t)
     local warnings = {}
     clench.log.sink(function(level, text)
-      -- a link of the Puma was measured, and no rigid body can have its inertia
+      -- the inertia of a link of the Puma was measured, and is impossible for a rigid body
       if level == "warning" and not text:find "raised to it$" then warnings[#warnings + 1] = text end
     end)
     local world = clench.load("worlds/" .. name .. ".wld", {root = "."})
@@ -99,7 +99,7 @@ test("the gallery shows every hand", function(t)
   for _, path in ipairs(catalog.hands) do t.ok(shown[path:match "([%w_]+)%.cfg$"], path) end
 end)
 
-test("the arms stand where their published tables say, at 0", function(t)
+test("at 0 the arms have the poses of their published tables", function(t)
   -- sums along the tables by hand [m]: Puma a2 + a3, -d3, base + d4; UR5 a2 + a3, -d4 - d6, d1 - d5
   for name, at in pairs {
     puma560 = {0.4318 + 0.0203, -0.15005, 0.67183 + 0.4318},
@@ -159,7 +159,7 @@ for _, path in ipairs(catalog.hands) do
       for _, corner in ipairs(triangles) do
         local a, b, c = vertices[corner[1]], vertices[corner[2]], vertices[corner[3]]
         local normal = (b - a):cross(c - a)
-        -- files have four decimals of a millimeter; the normal of a small triangle leans by no more
+        -- files have four decimals of a millimeter; the normal of a small triangle has at most this error
         local size = normal:norm()
         if math.abs((site.point - a):dot(normal)) < 2e-7 * size and normal:dot(site.normal) > 0.999 * size then
           local function inside(p, q) return (q - p):cross(site.point - p):dot(normal) >= -1e-3 * size ^ 2 end
@@ -169,7 +169,7 @@ for _, path in ipairs(catalog.hands) do
       t.ok(on, ("%s: site %d is not on %s"):format(path, i, body.name))
       local z = clench.pose {quat = site.quat} * clench.vec3(0, 0, 1)
       t.close((z - site.normal):norm(), 0, 1e-8)
-      -- pads look the way that closing moves them: out of the palm, or along +y of the link
+      -- normals of pads point in their closing direction: out of the palm, or along +y of the link
       local pad = site.finger < 0 and site.normal.z or site.normal.y
       t.ok(pad > 0.5, ("%s: site %d looks elsewhere: %g"):format(path, i, pad))
     end
@@ -185,7 +185,7 @@ test("the human hands have six eigengrasps and 18 sites", function(t)
   end
 end)
 
-test("the postures that eigengrasps start from lie in the ranges and stand free", function(t)
+test("the initial postures of eigengrasps lie in the ranges and are collision-free", function(t)
   for _, path in ipairs(catalog.hands) do
     local world = clench.world()
     local hand = world:add_robot(path)
@@ -208,8 +208,8 @@ test("primitives fill the bounds of their objects", function(t)
   end
 end)
 
-test("the vessels weigh what such vessels weigh", function(t)
-  -- [kg]: a flask of 1000 ml, a mug, a tumbler, each as its trade lists it, with a third to spare
+test("the vessels have the masses of typical vessels", function(t)
+  -- [kg]: a flask of 1000 ml, a mug, a tumbler, from catalogs, with a tolerance of a third
   for _, entry in ipairs {{"flask", 0.2, 0.42}, {"mug", 0.25, 0.42}, {"glass", 0.15, 0.35}} do
     local object = clench.world():add_object("models/objects/" .. entry[1] .. ".iv")
     t.ok(entry[2] < object.mass and object.mass < entry[3], entry[1] .. " weighs [kg] " .. object.mass)

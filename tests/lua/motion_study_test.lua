@@ -1,4 +1,4 @@
--- Grasps judged in motion: what survives, what does not, and that the world is left as it was.
+-- Grasps judged in motion: verdicts, and that the world is unchanged.
 local test, clench = require "test", require "clench"
 local roc = require "clench.study.motion.roc"
 
@@ -9,7 +9,7 @@ local function closed_on_flask()
   return hand, flask, world
 end
 
-test("a grasp survives pushes along six directions, and the world stays as it was", function(t)
+test("a grasp survives pushes along six directions, and the world is unchanged", function(t)
   local hand, flask, world = closed_on_flask()
   local before = world:hash()
   local v = clench.study.shake {world = world, hand = hand, object = flask, seconds = 0.5, settle = 0.5}
@@ -21,12 +21,12 @@ test("a grasp survives pushes along six directions, and the world stays as it wa
   end
   t.ok(tostring(v):find("held in 6 of 6 directions: 1 N along each axis for 0.5 s, 0.1 kg, gripped with 9.93 N of normal forces, 10 N requested", 1, true))
   t.close(v.grip_force, 10, 0.1)
-  -- the same bits again
+  -- bit-identical when repeated
   local again = clench.study.shake {world = world, hand = hand, object = flask, seconds = 0.5, settle = 0.5}
   for i, row in ipairs(v.directions) do t.ok(row.moved == again.directions[i].moved) end
 end)
 
-test("a grasp held under a load comes to rest, and costs next to no more iterations", function(t)
+test("a grasp held under a load comes to rest, and then needs almost no iterations", function(t)
   local new_trial, read_motion = require "clench.study.motion.trial", require "clench.study.motion.options"
   for _, name in ipairs {"dlr_flask", "human_flask", "shadow_bottle"} do
     local world = clench.load("worlds/" .. name .. ".wld", {root = "."})
@@ -82,7 +82,7 @@ test("a trial at rest continues while anything else in its world moves", functio
   t.ok(parts_until_rest(20) == nil)
 end)
 
-test("a share of the friction is counted on, and a weaker one loses what a stronger one holds", function(t)
+test("only a share of the friction is used, and with a smaller share a grasp is lost", function(t)
   local hand, flask, world = closed_on_flask()
   local static, kinetic = world:friction(hand.links[1].material, flask.material)
   local all = {hand = hand, object = flask, seconds = 0.5, settle = 0.2}
@@ -95,7 +95,7 @@ test("a share of the friction is counted on, and a weaker one loses what a stron
   t.fails(function() clench.study.shake(all) end, "friction_share must be")
 end)
 
-test("without friction the flask is lost, and the time of it is told", function(t)
+test("without friction the flask is lost, and the time of the loss is reported", function(t)
   local hand, flask = closed_on_flask()
   flask.material = "frictionless"
   local v = clench.study.shake {hand = hand, object = flask, seconds = 1, settle = 0.2}
@@ -103,7 +103,7 @@ test("without friction the flask is lost, and the time of it is told", function(
   for _, row in ipairs(v.directions) do t.ok(row.held == (row.time == nil)) end
 end)
 
-test("an object that nothing touches is lost before it is shaken", function(t)
+test("an untouched object is lost before it is shaken", function(t)
   local hand, flask = closed_on_flask()
   hand:open()
   hand.pose = clench.pose {xyz = {0, 0, 1}} * hand.pose
@@ -112,7 +112,7 @@ test("an object that nothing touches is lost before it is shaken", function(t)
   for _, row in ipairs(v.directions) do t.ok(not row.held and row.time == 0) end
 end)
 
-test("what stands around is left out, unless it is asked for", function(t)
+test("surroundings are left out, except on request", function(t)
   local hand, flask, world = closed_on_flask()
   -- a table directly under the flask carries it
   local bounds = flask.bounds_in_world
@@ -152,7 +152,7 @@ test("a hand that is shaken harder loses the flask", function(t)
   t.close(same.axes[1].moved, gentle.axes[1].moved, 1e-6)
 end)
 
-test("the load at which a grasp is lost lies above what it survives", function(t)
+test("the load at which a grasp is lost exceeds the load that it survives", function(t)
   local hand, flask = closed_on_flask()
   local fall = clench.study.fall_off {hand = hand, object = flask, settle = 0.2, rate = 10, max_force = 10}
   t.ok(not fall.survived and fall.min_force > 1 and fall.min_force < 10)
@@ -160,11 +160,11 @@ test("the load at which a grasp is lost lies above what it survives", function(t
   local function survives(force)
     return clench.study.shake {hand = hand, object = flask, force = force, grip_force = 10, seconds = 0.5, settle = 0.2}.survived
   end
-  -- a force that comes at once stretches springs up to twice as far as one that grows slowly
+  -- a suddenly applied force stretches springs up to twice as far as a slowly increasing one
   t.ok(survives(0.3 * fall.min_force) and not survives(3 * fall.min_force))
 end)
 
-test("the area under a ROC curve is the part of pairs in the right order", function(t)
+test("the area under a ROC curve is the fraction of pairs in the right order", function(t)
   t.close(roc({3, 4}, {1, 2}).auc, 1, 0)
   t.close(roc({1, 2}, {3, 4}).auc, 0, 0)
   t.close(roc({1, 1}, {1, 1, 1}).auc, 0.5, 0)
@@ -183,7 +183,7 @@ test("the area under a ROC curve is the part of pairs in the right order", funct
   t.equal(roc({1}, {}), {curve = {false_positives = {0, 0}, true_positives = {0, 1}}})
 end)
 
-test("measures are rated by what survives, in any number of threads", function(t)
+test("measures are rated by surviving grasps, with any number of threads", function(t)
   local hand, flask, world = closed_on_flask()
   local grasps = {clench.grasp(hand, flask)}
   flask.pose = clench.pose {xyz = {0, 0, 0.02}} * flask.pose
@@ -205,7 +205,7 @@ test("measures are rated by what survives, in any number of threads", function(t
   t.fails(function() p:plot {series = {}} end, "study.predictors: plot: unknown key 'series'")
 end)
 
-test("where nothing is lost there is nothing to compare, in text, chart and table", function(t)
+test("if nothing is lost, text, chart and table report that there is nothing to compare", function(t)
   local hand, flask = closed_on_flask()
   local p = clench.study.predictors({clench.grasp(hand, flask)}, {hand = hand, object = flask, measures = {"epsilon"}, threads = 1,
                                                                   shake = {seconds = 0.1, settle = 0.1, grip_seconds = 0.1}})
@@ -218,7 +218,7 @@ test("where nothing is lost there is nothing to compare, in text, chart and tabl
   t.equal(clench.csv.read(path)[1].auc, nil)
 end)
 
-test("a study begins at rest, whatever moved before, and the base stands still when it has been lifted", function(t)
+test("a study begins at rest, for any initial velocities", function(t)
   local hand, flask, world = closed_on_flask()
   local shake = {hand = hand, object = flask, seconds = 0.1, settle = 0.1, grip_seconds = 0.1}
   local lift = {hand = hand, object = flask, mass = 0.1, height = 0.02, hold = 0.1, settle = 0.1, grip_seconds = 0.1}
@@ -236,7 +236,7 @@ test("a study begins at rest, whatever moved before, and the base stands still w
   t.ok(world:hash() == before and flask.velocity.linear.z == 1 and hand.base.velocity.linear.z == 0.1)
 end)
 
-test("a verdict says what was lost", function(t)
+test("a verdict names the directions in which the object was lost", function(t)
   local hand, flask = closed_on_flask()
   local options = {hand = hand, object = flask, force = 300, mass = 0.1, seconds = 0.2, settle = 0.1, grip_seconds = 0.1}
   local verdict = clench.study.shake(options)
@@ -248,7 +248,7 @@ test("a verdict says what was lost", function(t)
   t.ok(tostring(verdict):find(("lost along %s: "):format(table.concat(lost, ", ")), 1, true), tostring(verdict))
 end)
 
-test("a trial that is halted stands still", function(t)
+test("a halted trial does not move", function(t)
   local new_trial, read_motion = require "clench.study.motion.trial", require "clench.study.motion.options"
   local hand, flask = closed_on_flask()
   local read = require "clench.options"("study.fall_off", {hand = hand, object = flask, settle = 0.01, grip_seconds = 0.01})
@@ -261,7 +261,7 @@ test("a trial that is halted stands still", function(t)
   t.equal(trial.root.pose, before)
 end)
 
-test("what no simulation follows is refused by the name of the option", function(t)
+test("options that cannot be simulated are rejected by name", function(t)
   local hand, flask, world = closed_on_flask()
   local function refused(study, given, sentence)
     given.hand, given.object = hand, flask
@@ -281,7 +281,7 @@ test("what no simulation follows is refused by the name of the option", function
   refused("shake_base", {frequency = 11}, "frequency must be at most 10 Hz, 10 time steps of 0.01 s in a period, got 11")
 end)
 
-test("an object that is welded cannot be lost", function(t)
+test("a welded object cannot be lost", function(t)
   local hand, flask = closed_on_flask()
   flask:weld(hand.links[3])
   for _, study in ipairs {"shake", "lift", "shake_base", "fall_off"} do
@@ -289,7 +289,7 @@ test("an object that is welded cannot be lost", function(t)
   end
 end)
 
-test("an angle in degrees and a distance in millimeters are told once", function(t)
+test("an angle in degrees and a distance in millimeters are reported once", function(t)
   local said = clench.parallel.map(function()
     local clench, said = require "clench", {}
     clench.log.sink(function(_, text) said[#said + 1] = text end)
@@ -300,14 +300,14 @@ test("an angle in degrees and a distance in millimeters are told once", function
                           seconds = 0.01, settle = 0.01, grip_seconds = 0.01}
     end
     return table.concat(said, "\n")
-  end, {1})[1]  -- in a state of its own
+  end, {1})[1]  -- in a separate state
   local _, meters = said:gsub("meters%?", "")
   local _, radians = said:gsub("radians%?", "")
   t.ok(radians == 1 and said:find("study.shake: max_angle is 15: radians? clench.rad(15) is 0.2618", 1, true), said)
   t.ok(meters == 1 and said:find("study.shake: max_distance is 50 m: meters? clench.mm(50) is 0.05", 1, true), said)
 end)
 
-test("what is wrong with a study is said in a sentence", function(t)
+test("faults of a study are reported in one sentence", function(t)
   local hand, flask, world = closed_on_flask()
   local function refused(given, ...)
     local words = {...}
@@ -333,7 +333,7 @@ test("what is wrong with a study is said in a sentence", function(t)
   t.ok(world)
 end)
 
-test("a hand on an arm is tried with its arm, and without other robots", function(t)
+test("a hand on an arm is tested with its arm, and without other robots", function(t)
   local world = clench.load("worlds/puma_barrett_glass.wld", {root = "."})
   local arm, hand, glass = world.robots[1], world.robots[2], world.objects[1]
   t.ok(hand.parent == arm)
@@ -348,7 +348,7 @@ test("a hand on an arm is tried with its arm, and without other robots", functio
   t.ok(other_hand.world == world)
 end)
 
-test("a study leaves joints free that no motor drives, and keeps gains that a script gives", function(t)
+test("a study leaves undriven joints free, and keeps gains set by a script", function(t)
   local path = "build/one_free_finger.xml"
   clench.files.save_text(path, [[<mujoco model="jaw"><compiler angle="radian"/><worldbody><body name="base"><geom type="box" size=".05 .01 .01"/>
     <body name="l" pos="-0.05 0 0"><joint name="a" type="slide" axis="1 0 0" range="-0.03 0.05"/><geom type="box" size="0.005 0.01 0.05" pos="0 0 0.06" mass="0.1"/></body>
@@ -374,7 +374,7 @@ test("the direction of a lift is a vector in either form", function(t)
   t.fails(function() clench.study.lift {hand = hand, object = flask, direction = "up"} end, "direction must be a vector {x, y, z}, got 'up'")
 end)
 
-test("a grasp without contacts has the worst of each measure", function(t)
+test("a grasp without contacts has the worst value of each measure", function(t)
   local hand, flask = closed_on_flask()
   local good = clench.grasp(hand, flask)
   hand:open()

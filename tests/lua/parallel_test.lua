@@ -1,7 +1,7 @@
--- Work in many threads: what is handed over, what is not, and that threads change nothing.
+-- Work in many threads: values that can be passed, values that cannot, and results that do not depend on threads.
 local test, clench = require "test", require "clench"
 
-test("results stand in the order of their items, whatever the threads", function(t)
+test("results are in the order of their items, with any number of threads", function(t)
   local items = {}
   for i = 1, 40 do items[i] = i end
   local function work(x) return {x * x, math.random(1000000)} end
@@ -15,7 +15,7 @@ test("results stand in the order of their items, whatever the threads", function
   t.equal(#clench.parallel.map(work, {}), 0)
 end)
 
-test("values come over as they were", function(t)
+test("values are passed unchanged", function(t)
   local values = {true, 7, -0.1, "a\0b", {x = {y = 1}}, clench.vec3(1, 2, 3), clench.pose {xyz = {1, 2, 3}, rpy = {1, 0, 0}}}
   local back = clench.parallel.map(function(x) return x end, values)
   for i = 1, 4 do t.ok(back[i] == values[i] and math.type(back[i]) == math.type(values[i])) end
@@ -23,7 +23,7 @@ test("values come over as they were", function(t)
   t.ok(back[6] == values[6] and back[7] == values[7])
 end)
 
-test("worlds, robots, meshes, snapshots and grasps are handed over as copies", function(t)
+test("worlds, robots, meshes, snapshots and grasps are passed as copies", function(t)
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
   local hand, flask = world.robots[1], world.objects[1]
   hand:autograsp()
@@ -46,7 +46,7 @@ test("worlds, robots, meshes, snapshots and grasps are handed over as copies", f
   t.equal(world:hash(), before)
 end)
 
-test("every item finds the shared worlds as they were given", function(t)
+test("every item gets the shared worlds in their original state", function(t)
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
   local hand = world.robots[1]
   local function work(_, shared)
@@ -59,7 +59,7 @@ test("every item finds the shared worlds as they were given", function(t)
   end
 end)
 
-test("an error is a row, and the others are done", function(t)
+test("an error is a row, and the other items are completed", function(t)
   local results, failed = clench.parallel.map(function(x)
     if x == 2 then error "bad two" end
     if x == 3 then error {} end
@@ -76,7 +76,7 @@ test("an error is a row, and the others are done", function(t)
   t.equal(results[5], 5)
 end)
 
-test("what cannot be handed over is refused in one sentence", function(t)
+test("values that cannot be passed are rejected in one sentence", function(t)
   local outside = 1
   t.fails(function() clench.parallel.map(function() return outside end, {1}) end, "it uses 'outside' of the lines around it")
   t.fails(function() clench.parallel.map(print, {1}) end, "expected one written in Lua")
@@ -102,12 +102,12 @@ test("each is called in order, and its error ends the rest", function(t)
   end, "enough")
 end)
 
-test("states share the memory that the caller may have", function(t)
+test("states share the memory limit of the caller", function(t)
   local file = io.open "/proc/meminfo"
   local total = file and file:read "a":match "MemTotal:%s+(%d+) kB"
   if file then file:close() end
   if not total then t.skip "the machine does not say how much memory it has" end
-  local half = tonumber(total) * 1024 // 2  -- less than the three quarters that one may have, more than each of two
+  local half = tonumber(total) * 1024 // 2  -- less than the limit of three quarters for one, more than each of two
   local results, failed = clench.parallel.map(function(size) return #(io.tmpfile():read(size) or "") end, {half, half}, {threads = 2})
   t.equal(failed, 2)
   for _, result in ipairs(results) do t.ok(result.error:find("not enough memory", 1, true), result.error) end
@@ -138,7 +138,7 @@ test("maps within maps and jobs share the cores, with the same results at any nu
   end
 end)
 
-test("no more threads compute at once than there are cores, on two levels", function(t)
+test("on two levels, no more threads compute at once than there are cores", function(t)
   local function outer()
     local function inner()
       local clock = require("clench").clock
@@ -165,7 +165,7 @@ test("no more threads compute at once than there are cores, on two levels", func
   t.ok(most >= 1 and most <= math.max(2, clench.parallel.cores), most)
 end)
 
-test("a map goes on while endless jobs have all cores", function(t)
+test("a map continues while endless jobs use all cores", function(t)
   local endless, count = {}, math.max(2, clench.parallel.cores)
   for i = 1, count do endless[i] = clench.job(function() while true do end end) end
   t.equal((clench.parallel.map(function(x) return x + 1 end, {1, 2, 3}, {threads = 2})), {2, 3, 4})
@@ -173,7 +173,7 @@ test("a map goes on while endless jobs have all cores", function(t)
   for _, job in ipairs(endless) do t.ok(job:wait(60)) end
 end)
 
-test("a map within a paused job is held, too", function(t)
+test("a map within a paused job pauses, too", function(t)
   local path = test.path ".txt"
   local job = clench.job(function(name)
     local function write(i, shared)
@@ -195,7 +195,7 @@ test("a map within a paused job is held, too", function(t)
   end
   while size() == 0 do clench.loop.sleep(0.005) end
   job:pause()
-  -- it is held within the next turns of its threads
+  -- it pauses within the next turns of its threads
   local before, after = -1, size()
   while before ~= after do
     clench.loop.sleep(0.3)

@@ -25,7 +25,7 @@ test("a pose from two axes has the first exactly, and the other in the plane of 
     local second = pose:rotate(axes[pair[2]])
     t.ok(second:dot(b) > 0 and math.abs(second:dot(a:cross(b))) < 1e-12)
     near(t, pose.position, clench.vec3(1, 2, 3))
-    -- the same whichever is written first, and right-handed
+    -- the same in either order, and right-handed
     near(t, pose:rotate {1, 0, 0}:cross(pose:rotate {0, 1, 0}), pose:rotate {0, 0, 1})
   end
 end)
@@ -39,7 +39,7 @@ test("a single axis is reached by the smallest rotation", function(t)
       local d = i == 1 and -1 * clench.vec3(table.unpack(own)) or i == 2 and clench.vec3(table.unpack(own)) or clench.vec3(random:uniform() - 0.5, random:uniform() - 0.5, random:uniform() - 0.5)
       local pose, unit = clench.pose {[name] = d}, d / d:norm()
       t.close((pose:rotate(own) - unit):norm(), 0, 1e-12)
-      -- no rotation that brings the axis there is smaller than the angle between the two
+      -- no rotation to this axis is smaller than the angle between the two
       t.close(pose:angle(), math.acos(math.max(-1, math.min(1, unit:dot(own)))), 1e-7)
     end
   end
@@ -67,14 +67,14 @@ test("a camera looks at its target with y up", function(t)
   t.fails(function() clench.look_at({0, 0, 1}, {0, 0, 0}) end, "up not along the view")
 end)
 
-test("random rotations are spread evenly: no direction is preferred", function(t)
+test("random rotations are uniform: no direction is preferred", function(t)
   local random, sum, count = clench.random(5), clench.vec3(0, 0, 0), 4000
   for _ = 1, count do sum = sum + random:rotation():rotate {0, 0, 1} end
   -- each component of the mean has the variance 1 / (3 count); six deviations
   t.ok((sum / count):norm() < 6 * math.sqrt(1 / count))
 end)
 
-test("a hand is placed by its approach, before a point or as a pose says", function(t)
+test("a hand is placed by its approach, in front of a point or at a pose", function(t)
   local world = clench.load("worlds/barrett_mug.wld", {root = "."})
   local hand, mug = world.robots[1], world.objects[1]
   local direction = clench.vec3(1, -2, 0.5)
@@ -171,7 +171,7 @@ test("an arm finds a posture for a pose of its last link, and of the hand that i
   t.ok((hand.approach.point - target.position):norm() < 2e-6)
   local far = arm:ik(arm.links[#arm.links], {xyz = {5, 0, 0}}, {orientation = "none", starts = 3})
   t.ok(not far.reached and far.distance > 3 and far.starts == 3)
-  -- rows of a Jacobian times speeds of the DOFs are the velocity of the point
+  -- the product of a Jacobian and the speeds of the DOFs is the velocity of the point
   local J, step = arm:jacobian(hand.base, {0, 0, 0.1}), 1e-7
   local p = hand.pose * clench.vec3(0, 0, 0.1)
   local q = arm.dofs
@@ -187,7 +187,7 @@ test("an arm finds a posture for a pose of its last link, and of the hand that i
   t.fails(function() arm:ik(other.base, {}) end, "belongs to another world")
 end)
 
-test("random postures lie within the limits and fill them", function(t)
+test("random postures are within the limits and cover them", function(t)
   local hand = clench.load "worlds/dlr_flask.wld".robots[1]
   local random = clench.random(2)
   local least, most = {}, {}
@@ -198,7 +198,7 @@ test("random postures lie within the limits and fill them", function(t)
   end
   for d, range in ipairs(hand.dof_limits) do
     t.ok(range[1] <= least[d] and most[d] <= range[2])
-    -- 200 draws leave a twentieth at an end empty once in 28,000
+    -- the probability that 200 draws miss a twentieth at one end is 1 in 28,000
     t.ok(most[d] - least[d] >= 0.9 * (range[2] - range[1]))
   end
   t.equal(tostring(hand:random_posture(clench.random(5))), tostring(hand:random_posture(clench.random(5))))

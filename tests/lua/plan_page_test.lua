@@ -1,4 +1,4 @@
--- The page of `clench plan`: what it holds, that hostile names stay words, and that a browser draws it.
+-- The page of `clench plan`: its contents, escaped hostile names, and rendering in a browser.
 local test = require "test"
 local base64 = require "clench.base64"
 local page = require "clench.plan.report_page"
@@ -8,7 +8,7 @@ local find_three = require "clench.page.three"
 local three, missing = find_three()
 local hostile = "</script><img src=x onerror=\"document.documentElement.dataset.bad='yes'\"><!-- & \u{e9}"
 
--- a flask that is grasped, and the same grasp with other numbers
+-- a grasped flask, and the same grasp with other numbers
 local function stage(count)
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
   local hand, flask = world.robots[1], world.objects[1]
@@ -37,7 +37,7 @@ test("base64 is that of RFC 4648", function(t)
   end
 end)
 
-test("rows tell where the hand comes from, and leave the world as it was", function(t)
+test("rows contain the approach of the hand, and leave the world unchanged", function(t)
   local world, hand, flask, grasps = stage(1)
   local before = world:hash()
   local visited = 0
@@ -51,7 +51,7 @@ test("rows tell where the hand comes from, and leave the world as it was", funct
   t.close(math.cos(clench.rad(row.elevation)) * math.cos(clench.rad(row.azimuth)), -d.x, 0.02)
 end)
 
-test("a machine without three.js is told which package has it", function(t)
+test("without three.js, the package that provides it is named", function(t)
   local text, why = find_three {"/no/such/three.js"}
   t.equal(text, nil)
   t.equal(why, "a page with a 3-D view needs three.js, which is not installed: apt-get install libjs-three")
@@ -59,7 +59,7 @@ test("a machine without three.js is told which package has it", function(t)
   t.fails(function() page(hand, flask, grasps, {title = "", subtitle = "", report = "", three = {}}) end, "apt-get install libjs-three")
 end)
 
-test("a page has a row for each grasp, each mesh once, and asks for nothing outside of it", function(t)
+test("a page has a row for each grasp and each mesh once, and loads nothing from elsewhere", function(t)
   if not three then t.skip(missing) end
   local html, notes = html_of(3)
   t.equal(#notes, 0)
@@ -89,7 +89,7 @@ test("a page without grasps says so, and one of many shows the first hundred", f
   t.ok(#html < 8e6)
 end)
 
-test("a mesh that makes the page large is told", function(t)
+test("a mesh that makes the page large is reported", function(t)
   if not three then t.skip(missing) end
   local world, hand = stage(0)
   local points, triangles, n = {}, {}, 330
@@ -150,7 +150,7 @@ test("in Chromium the table sorts, a click shows a grasp, and the mouse turns it
   t.equal(text:match ' data%-turned="([^"]*)"', "0.400")
 end)
 
-test("Chromium draws a grasp, and takes hostile names for words", function(t)
+test("Chromium draws a grasp, and shows hostile names as text", function(t)
   if not three then t.skip(missing) end
   local text = in_browser(html_of(3, hostile))
   if not text then t.skip "chromium is not installed" end
@@ -164,7 +164,7 @@ test("Chromium draws a grasp, and takes hostile names for words", function(t)
   t.equal(text:find("<img src=\"x\"", 1, true), nil)
 end)
 
-test("a page has the colors of triangles where a file gives several, and lists the assumptions", function(t)
+test("a page has the colors of triangles if a file gives several, and lists the assumptions", function(t)
   if not three then t.skip(missing) end
   local path = test.path()
   clench.files.save_text(path .. ".mtl", "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 0 1\n")
@@ -188,7 +188,7 @@ end)
 local png = "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x02\x00\x00\x00\x01\x08\x02\x00\x00\x00\x7b\x40\xe8\xdd\x00\x00" ..
   "\x00\x0d\x49\x44\x41\x54\x78\x9c\x63\xf8\xcf\x00\x04\xff\x01\x07\x00\x01\xff\xe2\x23\x9e\x59\x00\x00\x00\x00\x49\x45\x4e\x44\xae\x42\x60\x82"
 
-test("a page carries the textures of a body once, with their places", function(t)
+test("a page contains the textures of a body once, with their coordinates", function(t)
   if not three then t.skip(missing) end
   local path = test.path()
   local name = path:match "[^/]*$"

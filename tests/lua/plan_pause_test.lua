@@ -1,4 +1,4 @@
--- Planners in the background and in the loop: they find to the byte what they find alone, end when they are stopped, and leave the world as it is.
+-- Planners in the background and in the loop: results byte-identical to those in the foreground, stops, and an unchanged world.
 local test, clench = require "test", require "clench"
 
 local function barrett_mug()
@@ -17,7 +17,7 @@ local function options_of(planner)
   return options, world
 end
 
-test("in the background any planner finds the same bytes, and sends its grasps", function(t)
+test("any planner in the background gives byte-identical results, and sends its grasps", function(t)
   for _, planner in ipairs {"sample", "random", "anneal", "antipodal", "loop", "guided", "primitive"} do
     local expected = clench.plan[planner](options_of(planner))
     local options, world = options_of(planner)
@@ -34,7 +34,7 @@ test("in the background any planner finds the same bytes, and sends its grasps",
   end
 end)
 
-test("in a function of the loop a planner lets others run, and its world is the script's meanwhile", function(t)
+test("a planner in a coroutine of the loop lets others run, and the script can use its world meanwhile", function(t)
   local world, hand, mug = barrett_mug()
   local contact = clench.energy.contact {hand = hand, object = mug}
   local function anneal() return {hand = hand, object = mug, steps = 2500, seed = 2, energy = function() return contact() end} end
@@ -57,7 +57,7 @@ test("in a function of the loop a planner lets others run, and its world is the 
   t.equal(clench.json.encode(run.grasps), clench.json.encode(expected.grasps))
 end)
 
-test("a search that is stopped has sent what it had found", function(t)
+test("a stopped search has sent the grasps that it had found", function(t)
   local options = options_of "random"
   options.count = 1000000
   local job, grasps = clench.plan.start("random", options), {}

@@ -1,4 +1,4 @@
--- Reports of a search: its assumptions, its diagnosis, its progress, and the sides from which its grasps come.
+-- Reports of a search: its assumptions, its diagnosis, its progress, and the approach directions of its grasps.
 local test, clench = require "test", require "clench"
 local assumptions = require "clench.plan.assumptions"
 local batch = require "clench.plan.batch"
@@ -13,14 +13,14 @@ local function scene(mu, mass, hand_file)
   return hand, box
 end
 
--- Without shaking, which takes longest and on which no claim here depends.
+-- Without shaking, which takes longest and does not affect the checks here.
 local function sample(hand, box, more)
   local options = {hand = hand, object = box, candidates = 64, refine = 0, seed = 2, grasp = {soft = false}, verify = {shake = false}}
   for key, value in pairs(more or {}) do options[key] = value end
   return clench.plan.sample(options)
 end
 
-test("a search that lacks friction says so, and how many would hold with more", function(t)
+test("a search that lacks friction reports that, and how many grasps would hold with more", function(t)
   local run = sample(scene(0.08))
   t.equal(#run.grasps, 0)
   local words = tostring(run.report)
@@ -85,7 +85,7 @@ test("assumptions name values and sources", function(t)
   t.ok(of.lines[2]:find("assumed, as .-%.obj states none"), of.lines[2])
   from_file.material = "wood"
   t.ok(assumptions.of(hand, from_file, verify, {}).lines[1]:find("of the object: set by the script)", 1, true))
-  -- the looks of a surface say nothing of its friction
+  -- colors and textures do not count as a source of friction
   local looks = test.path(".iv", "#Inventor V2.0 ascii\nSeparator { Material { diffuseColor 1 0 0 } Cube { width 40 height 40 depth 40 } }\n")
   local red = world:add_object(looks, {name = "red"})
   t.equal({red.material_from, red.mass_from}, {"assumed", "assumed"})

@@ -27,7 +27,7 @@ local function check_same(t, run, other)
   t.equal(run.report.complete, other.report.complete)
 end
 
--- a search that records itself in a file and ends when so many pieces are written
+-- a search that records itself in a file and ends after the given number of pieces
 local function record_in(path, pieces, hand_file, count_asked)
   local count = 0
   clench.files.save_text(path, journal.head({name = "bar"}, count_wanted))
@@ -51,7 +51,7 @@ local path = test.path ".search"
 local complete = record_in(path, math.huge)
 local text = clench.files.read_text(path)
 
-test("a journal changes nothing of a search", function(t)
+test("a journal does not change a search", function(t)
   t.equal(#without_break.grasps, count_wanted)
   t.equal(without_break.report.candidates, 128)
   t.equal(without_break.report.complete, true)
@@ -76,7 +76,7 @@ test("a search that ended after a round continues", function(t)
   check_same(t, continued((journal.read(short))), without_break)
 end)
 
-test("wherever a journal is cut, the search continues from the last complete piece", function(t)
+test("from a journal truncated anywhere, the search continues after the last complete piece", function(t)
   local random = clench.random(8)
   local cut = test.path ".search"
   local head = #journal.head({name = "bar"}, count_wanted)
@@ -106,7 +106,7 @@ test("starts that jaws have shifted are restored bit-exactly", function(t)
   t.ok(known[1])
 end)
 
-test("missing pieces are tried in their places", function(t)
+test("missing pieces are computed at their positions", function(t)
   local known = journal.read(path)
   local random = clench.random(2)
   for first in pairs(journal.read(path)) do

@@ -1,4 +1,4 @@
--- Starts of planners: which parts are fingers, how far a hand opens, and hands that yield sideways.
+-- Starts of planners: links that are fingers, opening of a hand, and hands that yield sideways.
 local test, clench = require "test", require "clench"
 local opposition, starts, closing = require "clench.plan.opposition", require "clench.plan.starts", require "clench.plan.closing"
 local touch = require "clench.plan.touch"
@@ -11,7 +11,7 @@ local function hand_of_urdf(t, path)
   return clench.world():add_robot(whole)
 end
 
-test("palms, wrists and frames are no fingers", function(t)
+test("palms, wrists and frames are not fingers", function(t)
   for path, thumb in pairs {["shadow_hand/shadow_hand_right.urdf"] = "thtip", ["leap_hand/leap_hand_right.urdf"] = "thumb_tip_head",
                             ["allegro_hand/allegro_hand_left.urdf"] = "link_15.0_tip"} do
     local hand = hand_of_urdf(t, path)
@@ -32,7 +32,7 @@ test("palms, wrists and frames are no fingers", function(t)
   end
 end)
 
-test("a hand opens no further than it has room for", function(t)
+test("a hand opens only as far as it is collision-free", function(t)
   local hand = hand_of_urdf(t, "leap_hand/leap_hand_right.urdf")
   local world = hand.world
   local before = world:hash()
@@ -40,7 +40,7 @@ test("a hand opens no further than it has room for", function(t)
   t.equal(world:hash(), before)
   hand:set_dofs(open)
   t.ok(not world:collides(hand))
-  -- its limits alone would let the thumb into the palm
+  -- within its limits the thumb could enter the palm
   world:set_collision(false, hand)
   hand:open()
   local widest = hand.dofs
@@ -51,7 +51,7 @@ test("a hand opens no further than it has room for", function(t)
   t.ok(moved >= 1 and moved <= 4, moved)
 end)
 
-test("jaws that meet a bar off the middle give way to the side, and hold it from their pregrasp", function(t)
+test("jaws that touch an off-center bar yield sideways, and hold it from their pregrasp", function(t)
   local world = clench.world()
   local hand = world:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg"
   local bar = world:add_object(clench.shapes.box {0.02, 0.04, 0.1}, {pose = {xyz = {0, 0, 1}}})
@@ -67,13 +67,13 @@ test("jaws that meet a bar off the middle give way to the side, and hold it from
   t.close(grasp.pregrasp.pose.position.z, -0.2, 1e-12)
 end)
 
-test("sampling begins near grasps that held", function(t)
+test("sampling starts near successful grasps", function(t)
   local near, elsewhere = 0, 0
   for seed = 1, 6 do
     local world = clench.world()
     local hand, banana = world:add_robot "models/hands/barrett/barrett.cfg", world:add_object("models/objects/banana.iv", {pose = {xyz = {0, 0, 2}}})
     local run = clench.plan.sample {hand = hand, object = banana, candidates = 320, refine = 0, verify = false, count = 1000, distance = 0, seed = seed}
-    -- from the second round on, starts 3 and 4 of each four begin near found grasps: they hold more often
+    -- from the second round on, starts 3 and 4 of each four begin near found grasps: they succeed more often
     for _, grasp in ipairs(run.grasps) do
       local number = grasp.info.number
       if number > 64 then

@@ -1,4 +1,4 @@
--- Planners: what they find is what it says, at any number of threads, and where nothing is found they say why.
+-- Planners: results are reproducible and correct at any number of threads, and failures are explained.
 local test, clench = require "test", require "clench"
 
 local function barrett_mug()
@@ -12,7 +12,7 @@ local function jaws_and(mesh)
   return world, hand, world:add_object(mesh, {pose = {xyz = {0, 0, 1}}, name = "thing"})
 end
 
--- every grasp, applied to a world that no planner has seen, measures what it says and collides with nothing
+-- every grasp, applied to a world that no planner has used, has the reported measures and no collisions
 local function check_grasps(t, run, make)
   local world, hand, object = make()
   for _, g in ipairs(run.grasps) do
@@ -23,7 +23,7 @@ local function check_grasps(t, run, make)
   end
 end
 
-test("sampled grasps are verified, and hold when measured anew", function(t)
+test("sampled grasps are verified, and hold when evaluated again", function(t)
   local world, hand, mug = barrett_mug()
   local before = world:hash()
   local run = clench.plan.sample {hand = hand, object = mug, count = 6, seed = 2, refine = 3}
@@ -39,7 +39,7 @@ test("sampled grasps are verified, and hold when measured anew", function(t)
   end
 end)
 
-test("an object that stands on a floor is displaced into it, and verifying goes on", function(t)
+test("an object on a floor is displaced into it, and verification continues", function(t)
   local world = clench.world()
   local hand = world:add_robot "models/hands/dlr/dlr.cfg"
   local bottle = world:add_object "models/objects/bottle.iv"
@@ -60,7 +60,7 @@ test("refining makes grasps better on average", function(t)
   t.ok(mean(8) > 1.2 * mean(0))
 end)
 
-test("threads change no byte of what any planner finds", function(t)
+test("results of all planners are byte-identical with any number of threads", function(t)
   local planners = {
     sample = {count = 2, refine = 1}, random = {count = 5}, guided = {steps = 2500, child_steps = 30, children = 2},
   }
@@ -88,15 +88,15 @@ test("candidates around a cylinder are those of the rules", function(t)
     t.close(s.direction:norm(), 1, 1e-12)
     t.close(s.direction:dot(s.thumb), 0, 1e-12)
   end
-  -- too low to be gripped across; its sides are gripped along the axis alone
+  -- too low to be gripped across; its sides are gripped along the axis only
   local coin = {kind = "cylinder", pose = clench.pose {}, radius = 0.03, height = 0.01}
   t.equal(#starts({coin}, 1, "corrected"), 8)
-  -- radii are no diameters
+  -- radii are not diameters
   local drum = {kind = "cylinder", pose = clench.pose {}, radius = 0.15, height = 0.1}
   t.ok(#starts({drum}, 1, "graspit") > #starts({drum}, 1, "corrected"))
 end)
 
-test("hands begin half an edge and 80 mm from the middle of a box, a whole edge by the original's rule", function(t)
+test("hands start half an edge and 80 mm from the center of a box, or a whole edge by the original's rule", function(t)
   local starts = require "clench.plan.primitive_starts"
   local box = {kind = "box", pose = clench.pose {xyz = {1, 0, 0}}, size = clench.vec3(0.06, 0.06, 0.06)}
   for rule, far in pairs {corrected = 0.03 + 0.08, graspit = 0.06 + 0.08} do
@@ -123,7 +123,7 @@ test("jaws close on opposite points", function(t)
   check_grasps(t, run, make)
 end)
 
-test("a list of states is tried as it is", function(t)
+test("a list of states is tested unchanged", function(t)
   local _, hand, mug = barrett_mug()
   local found = clench.plan.random {hand = hand, object = mug, count = 4}.grasps
   local run = clench.plan.list {hand = hand, object = mug, states = found, approach = 0.3}
@@ -146,7 +146,7 @@ test("an online planner follows the object", function(t)
   t.fails(function() clench.plan.online {hand = hand, object = mug, limits = {}} end, "unknown key 'limits'")
 end)
 
-test("why nothing was found is said by name", function(t)
+test("reasons for a failure are reported by name", function(t)
   local _, hand, mug = barrett_mug()
   local far = clench.plan.guided {hand = hand, object = mug, steps = 500, limits = {Tx = {0.24, 0.25}, Ty = {0.24, 0.25}, Tz = {0.3, 0.35}}}
   t.equal(#far.grasps, 0)
@@ -157,7 +157,7 @@ test("why nothing was found is said by name", function(t)
   t.ok(tostring(large.report):find("is too wide for parallel_jaw: opposite points of its surface are at least 400 mm apart, and the pads open to 80 mm", 1, true), tostring(large.report))
 end)
 
-test("a robot that cannot close is told first", function(t)
+test("a robot that cannot close is reported first", function(t)
   local path = test.path(".urdf", [[<robot name="stick"><link name="palm"/><link name="tip"><collision><geometry><box size="0.02 0.02 0.1"/></geometry></collision></link>
     <joint name="j" type="revolute"><parent link="palm"/><child link="tip"/><axis xyz="1 0 0"/><limit lower="0" upper="1"/></joint>
     <clench><dof joint="j" velocity="0"/></clench></robot>]])
@@ -168,7 +168,7 @@ test("a robot that cannot close is told first", function(t)
   t.ok(run.report.causes[1]:find "^no DOF of stick closes", run.report.causes[1])
 end)
 
-test("wrong options are told", function(t)
+test("wrong options are reported", function(t)
   local _, hand, mug = barrett_mug()
   local function fails(name, options, ...)
     options.hand, options.object = options.hand or hand, options.object or mug
@@ -190,7 +190,7 @@ test("wrong options are told", function(t)
   fails("guided", {child_energy = "strct"}, "strct")
 end)
 
-test("what the engine refuses of a planner's options is blamed on the script, by the option's name", function(t)
+test("errors of the engine about a planner's options name the script's line and the option", function(t)
   local world, hand, mug = barrett_mug()
   local before = world:hash()
   local function refused(name, options, sentence)
@@ -219,7 +219,7 @@ test("what the engine refuses of a planner's options is blamed on the script, by
   end
 end)
 
-test("states that are infinitely bad are passed by", function(t)
+test("states with infinite energy are skipped", function(t)
   local _, hand, mug = barrett_mug()
   local calls = 0
   local run = clench.plan.anneal {hand = hand, object = mug, steps = 200, energy = function()
@@ -229,7 +229,7 @@ test("states that are infinitely bad are passed by", function(t)
   t.equal(run.report.best, 50)
 end)
 
-test("a list of states names what is missing or strange in them", function(t)
+test("missing and unknown entries of a list of states are named", function(t)
   local _, hand, mug = barrett_mug()
   local function refused(states, sentence, energy)
     t.fails(function() clench.plan.list {hand = hand, object = mug, states = states, energy = energy} end, "plan_test.lua:", "plan.list: " .. sentence)
@@ -312,14 +312,14 @@ test("grasps that are verified by shaking survive it, and lost ones are dropped 
   t.fails(function() shaken {shake = {hand = 1}} end, "plan.sample: verify: shake: unknown key 'hand'")
 end)
 
-test("a search may make small what the closed hand holds in simulation", function(t)
+test("the dynamic energy counts the directions in which a shaken grasp holds", function(t)
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
   local hand, flask = world.robots[1], world.objects[1]
   local before = world:hash()
   local e = clench.energy.dynamic {hand = hand, object = flask, shake = {seconds = 0.1, settle = 0.1}}
   t.equal(e(), -6.0)
   t.equal(world:hash(), before)
-  -- far away it is the way there
+  -- far away it is the distance
   hand.pose = clench.pose {xyz = {0, 0, 1}} * hand.pose
   t.close(e(), 1 + clench.energy.contact {hand = hand, object = flask}(), 1e-9)
   world = clench.load("worlds/dlr_flask.wld", {root = "."})

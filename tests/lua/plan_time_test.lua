@@ -1,4 +1,4 @@
--- Planners whose time ends early: what they give, and what they say.
+-- Planners whose time ends early: results and messages.
 local test = require "test"
 
 local function start(planner, options)
@@ -32,7 +32,7 @@ test("an error by a deadline has the kind timeout", function(t)
   end
 end)
 
-test("a planner ends when its time is over, and restores the world", function(t)
+test("a planner ends at its deadline, and restores the world", function(t)
   for _, planner in ipairs {"sample", "random", "anneal", "guided", "loop"} do
     local world = clench.world()
     local hand, object = world:add_robot "models/hands/barrett/barrett.cfg", world:add_object "models/objects/flask.iv"
@@ -47,7 +47,7 @@ end)
 test("work after a search whose time has ended is not interrupted", function(t)
   local run = start("anneal", {seconds = 0.1, steps = 1000000000})
   t.ok(run.report.steps < 1000000000)
-  -- the hand has closed from the states that were found
+  -- the hand has closed from the found states
   t.ok(#run.grasps > 0 or next(run.report.rejected) ~= nil)
   local world = clench.world()
   local a = world:add_object(clench.shapes.box {0.1, 0.1, 0.1})
@@ -55,7 +55,7 @@ test("work after a search whose time has ended is not interrupted", function(t)
   for _ = 1, 1000 do t.close(world:distance(a, b), 0.9, 1e-9) end
 end)
 
-test("the open posture of a hand of many links is freed by all DOFs together", function(t)
+test("all DOFs together make the open posture of a hand of many links collision-free", function(t)
   local starts = require "clench.plan.starts"
   local text = {'<robot name="r"><link name="l0"><collision><geometry><box size="0.05 0.05 0.05"/></geometry></collision></link>'}
   for i = 1, 70 do

@@ -1,4 +1,4 @@
--- Which links a planned grasp may and must touch with.
+-- Links with which a planned grasp may and must touch.
 local test, clench = require "test", require "clench"
 
 local function barrett_mug()
@@ -17,7 +17,7 @@ local function plan(planner, options)
   return clench.plan[planner](options), options.hand
 end
 
-test("fingertip grasps touch with the last links alone, power grasps with the palm as well", function(t)
+test("fingertip grasps touch only with the last links, and power grasps with the palm as well", function(t)
   local run, hand = plan("sample", {contacts = "fingertip", count = 5, refine = 4})
   t.ok(#run.grasps >= 4)
   local tips = {chain0_link2 = true, chain1_link2 = true, chain2_link1 = true}
@@ -29,7 +29,7 @@ test("fingertip grasps touch with the last links alone, power grasps with the pa
   for _, grasp in ipairs(run.grasps) do t.ok(touching(grasp)[hand.base.name]) end
 end)
 
-test("links that may and must touch are asked for by name", function(t)
+test("links that may and must touch are selected by name", function(t)
   local run, hand = plan("random", {touch = {must = {"chain2_link1", {"chain0_link1", "base"}}}, count = 10})
   t.ok(#run.grasps >= 5)
   for _, grasp in ipairs(run.grasps) do
@@ -41,7 +41,7 @@ test("links that may and must touch are asked for by name", function(t)
   for _, grasp in ipairs(run.grasps) do t.ok(not touching(grasp)[hand.base.name]) end
 end)
 
-test("annealing keeps to it as well, and where nothing is left the report says why", function(t)
+test("annealing respects the links, too, and if no grasp is left the report explains why", function(t)
   local all = plan("anneal", {steps = 3000, seed = 2})
   t.ok(#all.grasps > 0)
   local none = plan("anneal", {steps = 3000, seed = 2, touch = {may = {}}})
@@ -53,7 +53,7 @@ test("annealing keeps to it as well, and where nothing is left the report says w
   t.ok(tostring(run.report):find "touched with links that may not touch", tostring(run.report))
 end)
 
-test("what is asked badly of the links that touch is told", function(t)
+test("faults of contacts and touch are reported", function(t)
   local function fails(options, words) t.fails(function() plan("random", options) end, words) end
   fails({contacts = "finger"}, "contacts must be 'fingertip', 'power' or 'any', got 'finger'")
   fails({contacts = "power", touch = {}}, "expected contacts or touch, got both")

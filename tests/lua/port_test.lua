@@ -1,4 +1,4 @@
--- Ports: serial lines, sockets, pseudo-terminals; their ends are results, and a slow one blocks no other.
+-- Ports: serial lines, sockets, pseudo-terminals; their ends are results, and a slow one does not block others.
 local test, clench = require "test", require "clench"
 local loop, port = clench.loop, clench.port
 
@@ -13,7 +13,7 @@ local function together(...)
   end
 end
 
-test("bytes are read by count, by line, up to a delimiter, or as they come", function(t)
+test("bytes are read by count, by line, up to a delimiter, or as they arrive", function(t)
   local a, b = port.pair()
   t.equal(a:write("abc\nde\r\n\n=> f=> \0\255"), true)
   t.equal(b:read(2, 1), "ab")
@@ -37,7 +37,7 @@ test("bytes are read by count, by line, up to a delimiter, or as they come", fun
   t.ok(not b:is_open())
 end)
 
-test("in coroutines a read lets others run; outside of them the loop runs", function(t)
+test("in coroutines a read lets others run, and outside of them it runs the loop", function(t)
   local a, b = port.pair()
   local order = {}
   together(function()
@@ -58,7 +58,7 @@ test("in coroutines a read lets others run; outside of them the loop runs", func
   t.ok(loop.time() - began >= 0.03)
 end)
 
-test("closing wakes whoever waits", function(t)
+test("closing wakes all waiting coroutines", function(t)
   local a, b = port.pair()
   local c = port.pair()
   local listener = port.listen {}
@@ -75,7 +75,7 @@ test("closing wakes whoever waits", function(t)
   t.ok(not b:is_open() and not listener:is_open())
 end)
 
-test("a long message is sent while others go on; it arrives complete and in order", function(t)
+test("a long message is sent while others continue, and arrives complete and in order", function(t)
   local a, b = port.pair()
   local long, got, ticks = ("0123456789"):rep(500000), nil, 0
   together(function() t.equal(a:write(long), true) t.equal(a:write "end\n", true) end, function()
@@ -94,7 +94,7 @@ test("a long message is sent while others go on; it arrives complete and in orde
   t.equal(a:drain(1), true)
 end)
 
-test("a queue has a limit, and so has a line", function(t)
+test("the length of a queue is limited, and so is that of a line", function(t)
   local a, b = port.pair()
   a.max_queue = 1000000
   local taken = 0
@@ -121,7 +121,7 @@ test("a queue has a limit, and so has a line", function(t)
   t.equal(b:discard(), "")
 end)
 
-test("clients and servers find each other by TCP and by a Unix socket", function(t)
+test("clients and servers connect by TCP and by a Unix socket", function(t)
   local path = os.tmpname()
   os.remove(path)
   for _, options in ipairs {{}, {host = "localhost"}, {path = path}} do
@@ -141,7 +141,7 @@ test("clients and servers find each other by TCP and by a Unix socket", function
   t.fails(function() port.connect(path) end, "clench.port.connect: ", "No such file or directory")
 end)
 
-test("a terminal's clients come and go; unplugging it is a result", function(t)
+test("a terminal's clients connect and disconnect, and unplugging it is a result", function(t)
   local device = port.pty()
   for i = 1, 3 do
     local line <close> = port.serial {path = device.path, baud = 38400}
@@ -173,7 +173,7 @@ test("a recording is replayed with the same bytes, in the same order and no fast
   a:close()
   for _, speed in ipairs {1, math.huge} do
     local device = port.replay(path, {speed = speed})
-    t.equal({device:read_some(0.01)}, {nil, "timeout"})  -- it answers, it does not begin
+    t.equal({device:read_some(0.01)}, {nil, "timeout"})  -- it only answers
     device:write "wh"
     device:write "o\n"
     local began = loop.time()
@@ -215,7 +215,7 @@ test("arguments of ports are checked", function(t)
   loop.run()
 end)
 
-test("methods of ports and listeners answer junk with sentences", function(t)
+test("methods of ports and listeners reject invalid arguments in one sentence", function(t)
   local a = port.pair()
   local listener = port.listen {}
   a:close()

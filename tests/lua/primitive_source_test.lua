@@ -19,7 +19,7 @@ local function find(path, root, options)
   return primitive_source(read, object, root)
 end
 
-test("primitives beside the object's file come first", function(t)
+test("primitives next to the object's file come first", function(t)
   local list, source = find "models/objects/mug.iv"
   t.equal(source:match "[^/]*/[^/]*/[^/]*/[^/]*$", "models/objects/primitives/mug.iv")
   t.ok(#list > 1)
@@ -40,7 +40,7 @@ test("primitives below the root, as in GraspIt!, come second", function(t)
   write(folder .. "/models/objects/primitives/a.iv", sphere)
   t.equal(select(2, find(object, folder)), folder .. "/models/objects/primitives/a.iv")
   t.equal(select(2, find(object)), "bounding box")
-  -- the root that a path of the original has
+  -- the root in a path of the original
   object = write(folder .. "/models/objects/deep/a.iv", faces)
   t.equal(select(2, find(object)), folder .. "/models/objects/primitives/a.iv")
 end)

@@ -1,4 +1,4 @@
--- Names and messages with characters that a terminal or a page would obey.
+-- Names and messages with control characters of terminals or markup.
 local clench = require "clench"
 local test = require "test"
 local printable = require "clench.printable"
@@ -7,7 +7,7 @@ local text = require "clench.page.text"
 local hostile = {"\27[31m", "\r", "\n", "\0", "\127", "\u{85}", "\u{9B}31m", "\u{2028}", "\u{2029}", "\u{202A}", "\u{202E}", "\u{2066}", "\u{2069}"}
 local kept = {"a", "é", "\u{A0}", "\u{2027}", "\u{202F}", "\u{2065}", "\u{206A}", "\u{10FFFF}", "日本", "\xE9"}
 
-test("each character that a terminal would obey is replaced by one mark, and no others are", function(t)
+test("each control character of terminals is replaced by one mark, and no others are", function(t)
   for _, word in ipairs(hostile) do
     local shown = printable("a" .. word .. "b")
     t.ok(not shown:find(word, 1, true), word)

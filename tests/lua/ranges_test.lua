@@ -1,4 +1,4 @@
--- Descriptions are true: numbers just beyond a described range are refused by name, and a described default changes nothing.
+-- Descriptions are correct: numbers just beyond a described range are rejected by name, and a described default changes nothing.
 local test, clench = require "test", require "clench"
 
 local function jaw()
@@ -8,7 +8,7 @@ local function jaw()
   return hand, object, world
 end
 
--- calls with one table of options; `base` holds options that the call needs, or that make it quick
+-- calls with one table of options; `base` has options that the call requires, or that make it fast
 local function energy(name, base)
   return {base = base or {}, call = function(options, hand, object)
     options.hand, options.object = hand, name ~= "approach_cone" and object or nil

@@ -1,6 +1,6 @@
 local test, clench = require "test", require "clench"
 
-test("a size that is none and an up along the view are refused by name", function(t)
+test("an invalid size and an up vector along the view are rejected by name", function(t)
   local world = clench.world()
   world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "cube"})
   local function fails(options, message) t.fails(function() clench.render(world, options) end, message) end
@@ -15,7 +15,7 @@ test("a size that is none and an up along the view are refused by name", functio
   fails({up = {0, 0, 0}}, "up not along the view")
 end)
 
-test("options of figures are refused by name", function(t)
+test("options of figures are rejected by name", function(t)
   local world = clench.world()
   local function fails(options, message) t.fails(function() clench.render(world, options) end, message) end
   fails({quality = "draft", samples = 8}, "samples: expected 1, 4, 9 or 16 of a draft, got 8")
@@ -28,7 +28,7 @@ test("options of figures are refused by name", function(t)
   fails({cones = "force"}, "cones: 'force' needs the option forces")
 end)
 
-test("a camera in a table of its own is that of the same options, and is not mixed with them", function(t)
+test("a camera table is equivalent to the same options, and cannot be mixed with them", function(t)
   local world = clench.world()
   world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "cube"})
   local function draw(options)
@@ -47,7 +47,7 @@ test("a camera in a table of its own is that of the same options, and is not mix
   t.fails(function() draw {camera = 3} end, "camera: expected a table of options, got 3")
 end)
 
-test("a pick returns the body, point and normal that a ray through the pixel meets", function(t)
+test("a pick returns the body, point and normal that a ray through the pixel hits", function(t)
   local world = clench.world()
   local cube = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "cube"})
   local far = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "far", pose = clench.pose {xyz = {0.3, 0, 0}}})
@@ -71,7 +71,7 @@ test("a pick returns the body, point and normal that a ray through the pixel mee
   end
   t.ok(kinds.cube and kinds.far and kinds.floor and kinds.nothing, "both boxes, the floor and nothing are seen")
   t.ok(points > 50, "many points")
-  -- as it was when it was drawn
+  -- in the state in which it was drawn
   local x, y = 81 - 41, 61
   local before = picture:pick(x, y)
   cube.pose = clench.pose {xyz = {0, 0, 5}}

@@ -1,7 +1,7 @@
 -- Reports of `clench check` on files.
 local test, report = require "test", require "clench.report"
 
-test("a body is told with its numbers", function(t)
+test("a body is reported with its numbers", function(t)
   local r = report.of "models/objects/flask.iv"
   t.equal(r.kind, "body")
   t.equal(r.error, nil)
@@ -11,7 +11,7 @@ test("a body is told with its numbers", function(t)
   t.ok(r.parsed.mesh.watertight)
 end)
 
-test("a robot is told link by link and DOF by DOF", function(t)
+test("a robot is reported link by link and DOF by DOF", function(t)
   local r = report.of "models/hands/barrett/barrett.cfg"
   t.equal(r.kind, "robot")
   t.equal(#r.parsed.dofs, 4)
@@ -22,7 +22,7 @@ test("a robot is told link by link and DOF by DOF", function(t)
   t.ok(r.parsed.eigengrasps >= 1)
 end)
 
-test("a world is told with what it holds", function(t)
+test("a world is reported with its contents", function(t)
   local r = report.of "worlds/dlr_flask.wld"
   t.equal(r.kind, "world")
   t.equal(#r.parsed.objects, 1)
@@ -30,7 +30,7 @@ test("a world is told with what it holds", function(t)
   t.equal(#r.parsed.overlaps, 0)
 end)
 
-test("of a crowded world some bodies that overlap are named", function(t)
+test("for a crowded world some overlapping bodies are named", function(t)
   local path = test.path(".lua", [[local world = clench.world()
 for i = 1, 40 do world:add_obstacle("models/objects/cube.iv", {name = "c" .. i}) end
 return world]])
@@ -93,7 +93,7 @@ test("overlaps of thousands of bodies take one sweep", function(t)
   t.equal(#world.objects, 6001)
 end)
 
-test("what is wrong is one sentence, and the log is as it was", function(t)
+test("a fault is one sentence, and the log is restored", function(t)
   local r = report.of "no/such.wld"
   t.equal(r.parsed, nil)
   t.ok(r.error:find("no such file: no/such.wld", 1, true))
@@ -104,14 +104,14 @@ test("what is wrong is one sentence, and the log is as it was", function(t)
   t.equal(heard, nil)
 end)
 
-test("what looks wrong and is used as it stands is suspicious", function(t)
+test("implausible values that are used unchanged are suspicious", function(t)
   local r = report.of(test.path(".wld", "Camera\n0 0 0 0 0 0 1\n"))
   t.equal(r.error, nil)
   t.equal(#r.suspicious, 1)
   t.ok(r.suspicious[1]:find "first line")
 end)
 
-test("eigengrasps and virtual contacts are told with their counts", function(t)
+test("eigengrasps and virtual contacts are reported with their counts", function(t)
   local folder = test.path()
   local hand = clench.world():add_robot "models/hands/barrett/barrett.cfg"
   local egr, vgr = folder .. ".egr", folder .. ".vgr"
@@ -129,7 +129,7 @@ local function report_of(ending, text)
   return report.of(test.path(ending, text))
 end
 
-test("files of numbers are told with their counts", function(t)
+test("files of numbers are reported with their counts", function(t)
   local path = test.path()
   clench.files.save_pregrasps(path, {{point = {0, 0, 0}, direction = {0, 0, 1}, thumb = {1, 0, 0}}})
   t.equal(report.of(path).parsed, {count = 1})
@@ -146,7 +146,7 @@ test("files of numbers are told with their counts", function(t)
   t.ok(report_of(".txt", "2 2\n1 2\n").error:find "got the end of the file")
 end)
 
-test("what is guessed, repaired, ignored and suspicious stands apart", function(t)
+test("inferred, repaired, ignored and suspicious data are separate lists", function(t)
   local r = report_of(".iv", [[
 #Inventor V2.1 ascii
 #youngs 3
@@ -167,7 +167,7 @@ local function told(r, kind) return table.concat(r[kind], "\n") end
 
 local function has(t, text, part) t.ok(text:find(part, 1, true), text) end
 
-test("sets for grasping that no file gives are told of", function(t)
+test("eigengrasps and virtual contacts that no file gives are reported as inferred", function(t)
   local finger = [[<link name="%s"><inertial><mass value="0.1"/><inertia ixx="1e-4" iyy="1e-4" izz="1e-5" ixy="0" ixz="0" iyz="0"/></inertial>
 <collision><origin xyz="0 0 0.05"/><geometry><box size="0.02 0.02 0.1"/></geometry></collision></link>]]
   local joint = [[<joint name="%s" type="revolute"><parent link="palm"/><child link="%s"/><origin xyz="%g 0 0.06"/><axis xyz="0 %d 0"/>
@@ -186,7 +186,7 @@ test("sets for grasping that no file gives are told of", function(t)
   t.ok(not told(report.of "models/hands/barrett/barrett.cfg", "inferred"):find "are given", "barrett")
 end)
 
-test("masses of obstacles are MuJoCo's, or told", function(t)
+test("masses of obstacles are MuJoCo's, or reported as assumed", function(t)
   local r = report_of(".xml", [[<mujoco><worldbody><geom name="table" type="box" size="0.2 0.2 0.2"/>
 <body name="wall"><geom type="box" size="0.1 0.1 0.1" mass="7"/></body>
 <body name="cube" pos="0 0 1"><freejoint/><geom type="box" size="0.02 0.02 0.02" mass="4000"/></body></worldbody></mujoco>]])
@@ -199,7 +199,7 @@ test("masses of obstacles are MuJoCo's, or told", function(t)
   t.ok(not told(world, "inferred"):find "inertia", told(world, "inferred"))
 end)
 
-test("five files whose values are exchanged or contradict one another", function(t)
+test("five files with swapped or contradictory values are repaired or suspicious", function(t)
   local body = [[<link name="%s"><inertial><origin xyz="0 0 %g"/><mass value="%g"/><inertia ixx="%g" iyy="%g" izz="%g" ixy="0" ixz="0" iyz="0"/>
 </inertial><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>]]
   local function urdf(link, low, high)
@@ -222,7 +222,7 @@ test("primitives of an object are counted", function(t)
   t.equal(r.parsed.primitives, {box = 2, sphere = 1})
 end)
 
-test("what a robot has and nothing acts on is kept, and told", function(t)
+test("data of a robot without effect are kept, and reported", function(t)
   local folder = test.folder()
   assert(os.execute("mkdir " .. folder .. "/iv"))
   local function write(name, text) clench.files.save_text(folder .. "/" .. name, text) end

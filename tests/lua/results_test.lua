@@ -1,4 +1,4 @@
--- Numbers of an experiment: tables to files and back, and what they say.
+-- Numbers of an experiment: tables to files and back, and statistics.
 local clench = require "clench"
 local test = require "test"
 local csv, stats = clench.csv, clench.stats
@@ -7,7 +7,7 @@ local function with_file(text, run)
   run(test.path("", text))
 end
 
-test("values come back from a table of results as they were, with their types", function(t)
+test("a table of results reproduces values, with their types", function(t)
   local texts = {"mug", "", "1", "1.5", "true", "nan", "-inf", " a", "b ", 'say "x"', "a,b", "two\nlines\n\nend", "0x10", "é", "1e5", "+1"}
   local numbers = {0, 1, -7, math.mininteger, math.maxinteger, 0.1, 1.0, -0.0, 1e300, 5e-324, 1 / 3, math.huge, -math.huge, 2.0 ^ 53}
   local rows = {}
@@ -29,7 +29,7 @@ test("values come back from a table of results as they were, with their types", 
   end
 end)
 
-test("a single column keeps its empty cells, and a NaN is one", function(t)
+test("a single column keeps its empty cells, and a NaN is not empty", function(t)
   with_file(nil, function(path)
     csv.write(path, {{a = 1}, {}, {a = 0 / 0}, {}}, {columns = {"a"}})
     local back = csv.read(path)
@@ -49,7 +49,7 @@ test("files of other programs are read", function(t)
   end)
 end)
 
-test("what is wrong with a table is told with file and line", function(t)
+test("faults of a table are reported with file and line", function(t)
   local function refused(text, message)
     with_file(text, function(path) t.fails(function() csv.read(path) end, message) end)
   end
@@ -75,7 +75,7 @@ test("what is wrong with a table is told with file and line", function(t)
   end)
 end)
 
-test("a histogram counts each number once, by a slow count", function(t)
+test("a histogram counts each number once, compared with a slow count", function(t)
   local random = clench.random(3)
   for _ = 1, 50 do
     local values = {}
@@ -116,7 +116,7 @@ test("quantiles and summaries agree with their definitions", function(t)
   t.equal(stats.std {4, 4, 4}, 0)
 end)
 
-test("what is no list of numbers is refused", function(t)
+test("values that are not lists of numbers are rejected", function(t)
   t.fails(function() stats.mean {1, 0 / 0} end, "stats.mean: values[2]: expected a finite number, got nan")
   t.fails(function() stats.std {1, nil, 3} end, "stats.std: values[2]: expected a finite number, got nothing")
   t.fails(function() stats.summary "x" end, "stats.summary: expected a list of numbers, got 'x'")
@@ -125,7 +125,7 @@ test("what is no list of numbers is refused", function(t)
   t.fails(function() stats.interval(3, 2) end, "at most as many successes as trials, got 3 of 2")
 end)
 
-test("figures of numbers are drawn and saved, and sheets hold them", function(t)
+test("figures of numbers are drawn and saved, and sheets contain them", function(t)
   local line = clench.plot {series = {{name = "a", y = {1, false, 3, 0 / 0, 5}}, {kind = "points", x = {0, 9}, y = {2, 2}}},
                             title = "t", x_label = "x [m]", y_label = "y", y_range = {0, 4}, width = 300, height = 200}
   t.equal(tostring(line), "plot of 300 x 200 pixels")
@@ -174,6 +174,6 @@ test("bars over names, and charts, are saved as PNG and as SVG", function(t)
   t.fails(function() clench.plot {categories = {1}, series = {{y = {1}}}} end, "categories[1]: expected a string, got 1")
 end)
 
-test("a table whose values take far more memory than its text is refused", function(t)
+test("a table whose values take far more memory than its text is rejected", function(t)
   with_file(("1\n"):rep(1000000), function(path) t.fails(function() csv.read(path) end, "its contents take more than 102 MB of memory: 20 times the file and 64 MB") end)
 end)

@@ -19,7 +19,7 @@ test("names of a URDF reach the script", function(t)
   t.equal(hand.chains[2].joints[1].name, "left_slide")
 end)
 
-test("two robots of one file have links of their own names", function(t)
+test("two robots of one file have links with separate names", function(t)
   local first, world = gripper()
   local second = world:add_robot(gripper_file, {package = "tests/data/urdf", pose = {xyz = {1, 0, 0}}})
   t.equal(second.name, "gripper_2")
@@ -27,7 +27,7 @@ test("two robots of one file have links of their own names", function(t)
   t.ok(first:link "palm" ~= second:link "palm")
 end)
 
-test("a Lua world keeps what a robot's reading was given, and how it closes and approaches", function(t)
+test("a Lua world keeps the options with which a robot was read, including closing and approach", function(t)
   local hand, world = gripper {
     package = {gripper_description = "tests/data/urdf"}, folder = "tests", close = {left_slide = 0},
     approach = {point = {0, 0, 0.1}, direction = {1, 2, 3}},
@@ -41,10 +41,10 @@ test("a Lua world keeps what a robot's reading was given, and how it closes and 
   t.ok(again.robots[1].approach.frame == hand.approach.frame)
 end)
 
-test("closing and approach are said by options, by name or number", function(t)
+test("closing and approach are set by options, by name or number", function(t)
   t.ok(gripper {close = {left_slide = 1}}.dof_info[1].default_velocity > 0)
   t.ok(gripper {close = {-1}}.dof_info[1].default_velocity < 0)
-  -- a DOF of a name of digits is meant by the name alone
+  -- a DOF whose name consists of digits is selected by the name only
   local hand = clench.world():add_robot("tests/data/urdf/digits.urdf", {close = {[1] = -1}})
   t.equal({hand.dof_names[2], hand.dof_info[1].default_velocity, hand.dof_info[2].default_velocity}, {"1", -1.0, -1.0})
   hand = clench.world():add_robot("tests/data/urdf/digits.urdf", {close = {["1"] = 1}})
@@ -53,7 +53,7 @@ test("closing and approach are said by options, by name or number", function(t)
   t.ok(gripper {approach = {frame = frame}}.approach.frame == frame)
 end)
 
-test("a wrong option is told by its name", function(t)
+test("a wrong option is reported by its name", function(t)
   t.fails(function() gripper {close = {left_slid = 1}} end, "did you mean 'left_slide'?")
   t.fails(function() gripper {close = {[2] = 1}} end, "expected the name of a DOF or a number from 1 to 1, got '2'")
   t.fails(function() gripper {close = {left_slide = "in"}} end, "close: left_slide: expected 1, -1 or 0, got 'in'")
@@ -70,7 +70,7 @@ test("a wrong option is told by its name", function(t)
   t.fails(function() clench.load(gripper_file, {close = {nobody = 1}}) end, "close: expected the name of a DOF")
 end)
 
-test("a text world that holds no folders of packages says so, and which format does", function(t)
+test("a text world that cannot store folders of packages reports that, and names a format that can", function(t)
   local _, world = gripper()
   local path, said = test.path ".wld", {}
   clench.log.sink(function(_, text) said[#said + 1] = text end)
@@ -98,7 +98,7 @@ test("a robot is fixed to any link by its name, and to the last of a chain by nu
   local file = test.path()
   world:save(file .. ".lua", {root = "."})
   t.equal(clench.load(file .. ".lua", {root = "."}):hash(), world:hash())
-  -- the formats of the original know the last links of chains alone
+  -- the formats of the original only support the last links of chains
   t.fails(function() world:save(file .. ".wld", {root = "."}) end, "which ends no chain")
 end)
 
@@ -125,7 +125,7 @@ local function turntable(joint_type, limit)
     .. [["><parent link="base"/><child link="plate"/><axis xyz="0 0 1"/>]] .. (limit or "") .. [[</joint><clench><dof joint="turn" velocity="1"/></clench></robot>]])
 end
 
-test("a joint without limits goes on and on, and still does after its robot was written and read", function(t)
+test("a joint without limits is unbounded, also after its robot was written and read", function(t)
   for _, row in ipairs {{"continuous"}, {"revolute", [[<limit lower="-1e12" upper="1e12" effort="0" velocity="0"/>]]}, {"prismatic"}} do
     local path = turntable(row[1], row[2])
     for _ = 1, 2 do
@@ -140,7 +140,7 @@ test("a joint without limits goes on and on, and still does after its robot was 
       world:run(2)
       t.close(robot.dofs[1], 20, 1e-6)
       t.equal(reached, 0)
-      -- where it is, it can be put, and a state is taken up
+      -- its position can be set, and restored from a snapshot
       local state = world:snapshot()
       robot:set_dofs {30}
       world:restore(state)
@@ -167,7 +167,7 @@ test("a joint without limits goes on and on, and still does after its robot was 
   t.fails(function() limited:set_dofs {2} end, "must lie in [-1, 1] rad")
 end)
 
-test("a joint without limits is where a keyframe puts it, and searches look about where it is", function(t)
+test("a joint without limits takes the position of a keyframe, and searches start near its current one", function(t)
   local path = test.path(".xml", [[<mujoco model="arm"><compiler angle="radian"/><worldbody><body name="base"><geom size="0.1" mass="1"/>
     <body name="upper" pos="0 0 0.2"><joint name="a" axis="0 0 1"/><geom size="0.02" pos="0.2 0 0" mass="0.1"/>
     <body name="lower" pos="0.3 0 0"><joint name="b" axis="0 0 1" range="-2 2" limited="true"/><geom size="0.02" pos="0.2 0 0" mass="0.1"/>
@@ -184,7 +184,7 @@ test("a joint without limits is where a keyframe puts it, and searches look abou
   t.close(found.dofs[1], 100.02, 1e-4)
 end)
 
--- two fingers on slides, on a wrist that turns without end; the box between them turns along
+-- two fingers on slides, on a wrist without limits; the box between them turns along
 local function wrist_gripper(turn)
   local function link(name, z, size)
     return ([[<link name="%s"><collision><origin xyz="0 0 %g"/><geometry><box size="%s"/></geometry></collision></link>]]):format(name, z, size)
@@ -204,13 +204,13 @@ local function wrist_gripper(turn)
   return clench.grasp(hand, box), hand, world
 end
 
-test("grasps, their measures and searches do not see how often a wrist without limits has turned", function(t)
+test("grasps, their measures and searches do not depend on full turns of a wrist without limits", function(t)
   local far = 20 * math.pi + 0.3
   local once, hand = wrist_gripper(0.3)
   local often, turned = wrist_gripper(far)
   t.equal({hand.dof_names[1], hand.dof_info[1].endless, hand.dof_info[2].endless}, {"wrist", true, false})
   t.close(turned.dofs[1], far, 1e-12)
-  -- 20 pi is off by 1e-14 of a turn's sine
+  -- 20 pi has an error of 1e-14 in the sine
   t.ok(once.epsilon > 0)
   t.close(often.epsilon, once.epsilon, 1e-9)
   for _, measure in ipairs {"joint_margin", "joint_deviation"} do
@@ -220,7 +220,7 @@ test("grasps, their measures and searches do not see how often a wrist without l
   t.ok(a.probability > 0.5)
   t.equal(b.probability, a.probability)
   t.close(b.mean, a.mean, 1e-6)
-  -- fixed bodies do not move
+  -- fixed variables do not move
   for _, options in ipairs {{posture = "fixed"}, {posture = "dofs", fixed = {"wrist"}}} do
     options.hand, options.object, options.position = turned, often.object, "approach"
     options.energy = function() return 1 end
@@ -241,7 +241,7 @@ test("worlds differ by whether a limit stops a joint", function(t)
   t.ok(world("continuous"):hash() ~= world("revolute", limit):hash())
 end)
 
-test("a tendon that nothing stops pulls on, and its joint may be told where to stand", function(t)
+test("a compliant DOF without limits moves on, and positions of its joints can be set", function(t)
   local path = test.path(".urdf", [[<robot name="spool"><link name="base"/><link name="drum"><inertial><mass value="1"/>
     <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" iyz="0" ixz="0"/></inertial></link><joint name="turn" type="continuous"><parent link="base"/>
     <child link="drum"/><axis xyz="0 0 1"/></joint><clench><dof joint="turn" kind="compliant" velocity="1"/><joint name="turn" spring="1"/></clench></robot>]])

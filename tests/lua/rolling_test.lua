@@ -4,7 +4,7 @@ local shapes = clench.shapes
 
 local gravity, slope, radius = 9.81, math.rad(3), 0.05
 
--- A square plate whose upper side is z = 0; fine: a smaller surface of squares of 15 mm, cut into triangles.
+-- A square plate whose upper side is z = 0; fine: a smaller surface of squares of 15 mm, divided into triangles.
 local function plate(fine)
   if not fine then return shapes.move(shapes.box {2, 2, 0.1}, {0, 0, -0.05}) end
   local n, size, vertices, triangles = 40, 0.3, {}, {}
@@ -59,7 +59,7 @@ for _, fine in ipairs {false, true} do
         local way = (body.pose.position - start):norm()
         local expected = gravity * math.sin(slope) / (1 + inertia) * seconds ^ 2 / 2
         t.close(way, expected, 0.01 * expected)
-        -- it neither turns aside nor leaves the plate
+        -- it neither turns sideways nor leaves the plate
         local away = body.pose.position - start
         t.close(away.y, 0, 1e-4)
       end)
@@ -81,7 +81,7 @@ test("a wheel that rolls on a level mesh does not slow down", function(t)
   end
 end)
 
-test("a capsule on its side touches a plate at two points, standing at one, with the plate's normal", function(t)
+test("a capsule on its side touches a plate at two points, and upright at one, with the plate's normal", function(t)
   local world = clench.world()
   local floor = world:add_obstacle(plate(false), {name = "floor"})
   local rod = world:add_object(shapes.capsule {0.01, 0.06}, {pose = clench.pose {xyz = {0.1, 0.2, 0.01 + 5e-5}} * along_y})
@@ -165,7 +165,7 @@ test("an ellipsoid that rocks and spins gains no energy, and loses little", func
   end
 end)
 
-test("a part that lies deep in the floor is pushed out, whatever else touches beside it", function(t)
+test("a part deep in the floor is pushed out, regardless of other contacts", function(t)
   local deep = shapes.move(shapes.sphere {0.02}, {0.05, 0, -0.005})
   local shallow = shapes.move(shapes.sphere {0.02}, {-0.05, 0, 0.0199})
   for _, parts in ipairs {{deep, shallow}, {shallow, deep}} do
@@ -177,7 +177,7 @@ test("a part that lies deep in the floor is pushed out, whatever else touches be
   end
 end)
 
-test("what rolls over an open surface meets it once", function(t)
+test("a body that rolls over an open surface has few impacts", function(t)
   for _, shape in ipairs {shapes.cylinder {0.02, 0.05}, shapes.sphere {0.02}} do
     local world = clench.world()
     world:add_obstacle {vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, triangles = {{1, 2, 3}, {1, 3, 4}}}

@@ -1,4 +1,4 @@
--- Heaps of round bodies in a bin: nothing overlaps, and no energy appears.
+-- Heaps of round bodies in a bin: no overlaps, and no increase of energy.
 local test, clench = require "test", require "clench"
 local shapes = clench.shapes
 
@@ -15,7 +15,7 @@ local function add_bin(world, half)
   end
 end
 
--- Numbers from 0 to 1, the same on all platforms.
+-- Random numbers from 0 to 1, the same on all platforms.
 local function random_numbers(seed)
   local state = seed * 7919
   return function()
@@ -24,7 +24,7 @@ local function random_numbers(seed)
   end
 end
 
--- Eight bodies in two layers, turned at random.
+-- Eight bodies in two layers, in random orientations.
 local function heap(shape, mass, half, pitch, seed)
   local world, random = clench.world(), random_numbers(seed)
   world.gravity = {0, 0, -gravity}

@@ -15,7 +15,7 @@ local function write(name, text)
   return path
 end
 
--- a world in which everything is set that can be set
+-- a world in which everything that can be set is set
 local function rich_world()
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
   local hand, flask = world.robots[1], world.objects[1]
@@ -44,7 +44,7 @@ local function rich_world()
   return world
 end
 
-test("a world saved as Lua is the same to the bit, whatever was set in it", function(t)
+test("a world saved as Lua is bit-identical, with any settings", function(t)
   local world = rich_world()
   local path = folder .. "/rich.lua"
   t.equal(t.warnings(function() world:save(path, {root = "."}) end), {})
@@ -60,7 +60,7 @@ test("a world saved as Lua is the same to the bit, whatever was set in it", func
   t.equal(read(folder .. "/again.lua"), read(path))
 end)
 
-test("the sign of a zero comes back from Lua", function(t)
+test("the sign of a zero is restored from Lua", function(t)
   local box, zero = clench.shapes.box {0.1, 0.1, 0.1}, -0.0
   local function same(make)
     local world = clench.world()
@@ -80,7 +80,7 @@ test("the sign of a zero comes back from Lua", function(t)
   end)
 end)
 
-test("eigengrasps that were taken from a hand stay away", function(t)
+test("eigengrasps removed from a hand stay removed", function(t)
   local world = clench.world()
   local hand = world:add_robot "models/hands/human/human20.cfg"
   local count = #hand.eigengrasps
@@ -91,20 +91,20 @@ test("eigengrasps that were taken from a hand stay away", function(t)
   t.ok(#again.robots[1].eigengrasps == 20 and count < 20)
 end)
 
-test("a world that loads itself says so", function(t)
+test("a world that loads itself is reported", function(t)
   local path = write("self.lua", "return require 'clench'.load(select(2, ...) .. '/other.lua')")
   write("other.lua", "return require 'clench'.load(select(2, ...) .. '/self.lua')")
   t.fails(function() clench.load(path) end, "self.lua: it loads itself")
   t.fails(function() clench.load(path) end, "self.lua: it loads itself")
-  -- one after the other is no circle
+  -- loading one file twice is not a cycle
   local twice = write("twice.lua", "local f = select(2, ...) .. '/zero.lua' local a = require 'clench'.load(f) return require 'clench'.load(f)")
   t.ok(clench.load(twice))
 end)
 
--- an .xml is a scene of MuJoCo unless it says otherwise
+-- an .xml is a scene of MuJoCo unless stated otherwise
 local formats = {[".xml"] = "graspit"}
 
-test("any world of ours comes back to the bit as Lua, its poses and DOFs in every format", function(t)
+test("all shipped worlds are restored bit-exactly from Lua, and their poses and DOFs from every format", function(t)
   for _, name in ipairs {"dlr_flask", "barrett_mug", "barrett_glass_table"} do
     local world = clench.load("worlds/" .. name .. ".wld", {root = "."})
     for _, ending in ipairs {".wld", ".xml", ".lua"} do
@@ -115,7 +115,7 @@ test("any world of ours comes back to the bit as Lua, its poses and DOFs in ever
   end
 end)
 
-test("a hand that has closed comes back closed", function(t)
+test("a closed hand is restored closed", function(t)
   local world = clench.load("worlds/barrett_mug.wld", {root = "."})
   world.robots[1]:autograsp()
   for _, ending in ipairs {".wld", ".xml", ".lua"} do
@@ -128,7 +128,7 @@ test("a hand that has closed comes back closed", function(t)
   end
 end)
 
-test("what .wld and .xml cannot hold is told in one warning that names it", function(t)
+test("data that .wld and .xml cannot store are reported in one warning that names them", function(t)
   local world = rich_world()
   for _, ending in ipairs {".wld", ".xml"} do
     local said = table.concat(t.warnings(function() world:save(folder .. "/lossy" .. ending, {root = ".", format = formats[ending]}) end), "\n")
@@ -151,7 +151,7 @@ test("what .wld and .xml cannot hold is told in one warning that names it", func
     {"plain.wld does not hold the mass of 'mug', the friction of cork on wood"})
 end)
 
-test("that a soft layer and Poisson's ratio are kept by .lua alone is told", function(t)
+test("a warning reports that only .lua stores the soft layer and Poisson's ratio", function(t)
   local world = clench.world()
   world:add_object(clench.shapes.sphere {0.03}, {name = "ball", elastic_modulus = 1e6, soft_layer = 0.004, poisson_ratio = 0.25})
   for _, ending in ipairs {".wld", ".xml"} do
@@ -161,7 +161,7 @@ test("that a soft layer and Poisson's ratio are kept by .lua alone is told", fun
   t.equal(t.warnings(function() world:save(folder .. "/soft.lua") end), {})
 end)
 
-test("bodies made in a script are written beside worlds for GraspIt!, and come back", function(t)
+test("bodies made in a script are written next to worlds for GraspIt!, and read back", function(t)
   local world = clench.world()
   local ball = world:add_object(clench.shapes.sphere {0.03}, {name = "ball", mass = 0.2, material = "rubber"})
   for _, ending in ipairs {".wld", ".xml"} do
@@ -174,7 +174,7 @@ test("bodies made in a script are written beside worlds for GraspIt!, and come b
   end
 end)
 
-test("a file that cannot be written leaves the old one as it was", function(t)
+test("a file that cannot be written keeps its old contents", function(t)
   local path = write("old.wld", "precious")
   local world = clench.world()
   t.fails(function() world:save "no/such/folder/a.wld" end, "no such folder: no/such/folder")
@@ -208,7 +208,7 @@ test("sets of eigengrasps and virtual contacts that the user gave a hand are sav
   t.ok(t.warnings(function() world:save(folder .. "/sets.wld", {root = "."}) end)[1]:find "the eigengrasps of 'barrett'")
 end)
 
-test("a camera is set by what it sees or by its pose", function(t)
+test("a camera is set by eye and target or by its pose", function(t)
   local world = clench.world()
   world.camera = {eye = {0, -2, 0}, target = {0, 0, 0}, up = {0, 0, 1}}
   t.close(world.camera.target, {0, 0, 0}, 1e-15)
@@ -235,7 +235,7 @@ test("joints that broke away are set by chain, joint and value", function(t)
   end
 end)
 
-test("files outside of the folder of confine are not read again to save a world", function(t)
+test("files outside of the folder of confined reading are not read again to save a world", function(t)
   local world = clench.world()
   world:add_object "models/objects/flask.iv"
   local told = table.concat(t.warnings(function() world:save(folder .. "/confined.xml", {confine = "worlds", format = "graspit"}) end), "\n")
@@ -247,13 +247,13 @@ test("files outside of the folder of confine are not read again to save a world"
   t.fails(function() world:save(folder .. "/confined.lua", {confine = "no such"}) end, "world:save: confine: expected a folder, got 'no such'")
 end)
 
-test("what a world that has run does not take along is told", function(t)
+test("dynamic state that is not saved is reported", function(t)
   local world = clench.load("worlds/parallel_jaw_cube.wld")
   world.time_step = 0.002
   t.equal(t.warnings(function() world:save(folder .. "/dynamic.lua") end), {})
   t.equal(clench.load(folder .. "/dynamic.lua").time_step, 0.002)
   t.equal(t.warnings(function() world:save(folder .. "/dynamic.wld") end), {"dynamic.wld does not hold the time step"})
-  -- there and back is no change
+  -- setting and resetting is not a change
   world.robots[1].floating = true
   world.robots[1].floating = false
   t.equal(t.warnings(function() world:save(folder .. "/dynamic.lua") end), {})
@@ -271,7 +271,7 @@ test("what a world that has run does not take along is told", function(t)
      "world:save: the time, velocities and targets of motors of a world that has run are not saved"})
 end)
 
-test("worlds of the original come back from every format, and are the same in both of its generations", function(t)
+test("worlds of the original are restored from every format, and equal in both of its versions", function(t)
   local shared = os.getenv "CLENCH_SHARED" or "../shared"
   local file = io.open(shared .. "/data/README.md")
   if not file then t.skip("no third-party data at ../shared or CLENCH_SHARED") end
@@ -287,8 +287,8 @@ test("worlds of the original come back from every format, and are the same in bo
     for _, ending in ipairs {".wld", ".xml", ".lua"} do
       world:save(folder .. "/original" .. ending, {root = root, format = formats[ending]})
       local again = clench.load(folder .. "/original" .. ending, {root = root})
-      -- the hand of the first one is carried: its place there and in the world are written both, and not every length in
-      -- meters has a decimal in millimeters that is read as it
+      -- the hand of the first one is carried: its pose on the arm and in the world are both written, and not every length in meters has an exactly
+      -- equal decimal in millimeters
       if ending == ".lua" or i > 1 then t.equal(again:hash(), world:hash()) end
       for k, body in ipairs(world.bodies) do
         local off = body.pose:inverse() * again.bodies[k].pose
@@ -299,7 +299,7 @@ test("worlds of the original come back from every format, and are the same in bo
   for i, body in ipairs(loaded[2].bodies) do t.equal(body.pose, loaded[3].bodies[i].pose) end
 end)
 
-test("an .xml is a scene of MuJoCo, or a world of GraspIt! where it says so or a robot carries another", function(t)
+test("an .xml is a scene of MuJoCo, or a world of GraspIt! on request or if a robot carries another", function(t)
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
   world.robots[1]:autograsp()
   world:save(folder .. "/scene.xml")
@@ -331,7 +331,7 @@ test("an .xml is a scene of MuJoCo, or a world of GraspIt! where it says so or a
   t.equal(#clench.load(folder .. "/carried.xml").robots, 1)
 end)
 
-test("the friction of pairs that a scene gives its geoms is that of the world", function(t)
+test("the friction of pairs from a scene's geoms is that of the world", function(t)
   local world = clench.world()
   local hand = world:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg"
   local cube = world:add_object("models/objects/cube.iv")

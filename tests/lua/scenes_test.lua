@@ -30,7 +30,7 @@ test("a scene of MuJoCo is a world", function(t)
   t.equal(world.obstacles[1].name, "floor")
   t.equal(world.gravity.z, -1.62)
   t.equal(world:friction("friction 1.2", "friction 0.7"), 1.2)
-  -- on materials that every world has: the larger of both's own
+  -- on materials that every world has: the larger of the two coefficients
   t.equal(world:friction("friction 0.7", "rubber"), world:friction("rubber", "rubber"))
   t.equal(world:friction("friction 1.2", "frictionless"), 0.0)
   local joint = world:robot("arm").chains[1].joints[1]
@@ -43,7 +43,7 @@ test("a scene of MuJoCo is a world", function(t)
   t.equal(servo.gain, 100.0)
   t.equal(servo.bias[2], -100.0)
   t.equal(#world:robot("door").actuators, 0)
-  -- the base on the floor is fixed to it, and the door's frame stands in it
+  -- the base on the floor is fixed to it, and the door's frame overlaps it
   t.equal(#world:colliding(), 0)
 end)
 
@@ -71,7 +71,7 @@ test("keyframes are named states", function(t)
   t.fails(function() world:add_keyframe("x", {{body = world:body "floor", poes = 1}}) end, "unknown key 'poes'")
 end)
 
-test("gravity is part of a world, and weighs on joints", function(t)
+test("gravity is part of a world, and acts on joints", function(t)
   local world = clench.world()
   local before = world:hash()
   world.gravity = {0, 0, -1}
@@ -83,11 +83,11 @@ test("gravity is part of a world, and weighs on joints", function(t)
   t.fails(function() world.gravity = {0, 2e6, 0} end, "gravity: expected a number from")
 end)
 
-test("saved scenes come back equal", function(t)
+test("saved scenes are read back equal", function(t)
   local world = clench.load(scene, {keyframe = "home"})
   world:save(folder .. "/saved.lua")
   t.equal(clench.load(folder .. "/saved.lua"):hash(), world:hash())
-  -- once more from what was read
+  -- once more from the scene that was read
   clench.load(folder .. "/saved.lua"):save(folder .. "/again.lua")
   t.equal(clench.load(folder .. "/again.lua"):hash(), world:hash())
   local said = {}
@@ -106,7 +106,7 @@ test("saved scenes come back equal", function(t)
   end
 end)
 
-test("clench check tells of a scene what stands in its world, and of a lone robot its parts", function(t)
+test("clench check reports the bodies of a scene, and the parts of a single robot", function(t)
   local report = require "clench.report"
   local r = report.of(scene)
   local world = clench.load(scene)
@@ -121,7 +121,7 @@ test("clench check tells of a scene what stands in its world, and of a lone robo
   t.equal(r.parsed.is_scene, true)
   local turned = write("turned.xml", [[<mujoco><worldbody><body name="arm" pos="1 2 3" euler="90 0 0"><geom size="0.1"/>
 <body name="upper"><joint range="-1 1"/><geom size="0.1" pos="0 0 0.3"/></body></body><geom size="0.1" pos="5 5 5"/></worldbody></mujoco>]])
-  local approach = report.of(turned).parsed.robots[1].approach  -- in the base: its z axis, as nothing closes
+  local approach = report.of(turned).parsed.robots[1].approach  -- in the base: its z axis, because nothing closes
   for i = 1, 3 do
     t.close(approach.point[i], 0, 1e-12)
     t.close(approach.direction[i], i == 3 and 1 or 0, 1e-12)
@@ -130,7 +130,7 @@ test("clench check tells of a scene what stands in its world, and of a lone robo
 <joint range="-1 1"/><geom size="0.1" pos="0 0 0.3"/></body></body></worldbody></mujoco>]])
   t.equal(report.of(alone).kind, "robot")
 
-  -- meshes may lie elsewhere
+  -- meshes may be in another folder
   local meshed = write("meshed.xml", [[<mujoco><asset><mesh name="m" file="m.obj"/></asset><worldbody>
 <body name="tin"><freejoint/><geom type="mesh" mesh="m"/></body></worldbody></mujoco>]])
   assert(os.execute("mkdir -p " .. folder .. "/meshes"))
@@ -142,7 +142,7 @@ test("clench check tells of a scene what stands in its world, and of a lone robo
   t.ok(report.of(broken).error:find("did you mean 'box'?", 1, true), report.of(broken).error)
 end)
 
-test("a world of one body tells itself in the singular", function(t)
+test("a world of one body is reported in the singular", function(t)
   local world = clench.world {}
   world:add_object(clench.shapes.box {0.1, 0.1, 0.1})
   t.equal(tostring(world), "world of 1 body, 0 robots")
@@ -161,7 +161,7 @@ test("a scene is converted to a world, and its robots are kept with their actuat
   t.equal(#world:robot("arm").actuators, 1)
 end)
 
-test("gravity may be none", function(t)
+test("gravity may be zero", function(t)
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
   local hand, flask = world.robots[1], world.objects[1]
   hand:autograsp()
@@ -174,21 +174,21 @@ test("gravity may be none", function(t)
   t.ok(grasp:quality "grasp_robustness" >= 0)
 end)
 
-test("one robot of a scene is added by the body that it begins with", function(t)
+test("one robot of a scene is selected by its first body", function(t)
   local world = clench.world()
   t.equal(#world:add_robot(scene, {body = "arm", pose = {xyz = {0, 0, 1}}}).links, 1)
   t.fails(function() world:add_robot(scene, {body = "mug"}) end, "body: expected one that a tree of joints begins with, got 'mug', expected one of arm, door")
-  -- so it is loaded and written
+  -- it is loaded and written in the same way
   t.equal(#clench.load(scene, {body = "door"}).robots, 1)
   t.equal(clench.convert(scene, folder .. "/arm.urdf", {body = "arm"}), "robot")
   t.equal(#clench.world():add_robot(folder .. "/arm.urdf").dofs, 1)
   t.fails(function() clench.load("worlds/dlr_flask.wld", {body = "arm"}) end, "dlr_flask.wld: body: expected a scene of MJCF, got another file")
-  -- without it all are one robot, with a warning
+  -- without a selection all are one robot, with a warning
   local told = table.concat(t.warnings(function() t.equal(#clench.world():add_robot(scene).dofs, 2) end), "\n")
   t.ok(told:find("scene.xml: these bodies are read as one robot: arm, door; the option 'body' reads one of them, and clench.load a world with all of them", 1, true), told)
 end)
 
-test("a robot with a free joint moves freely, and does so in a world that is saved", function(t)
+test("a robot with a free joint moves freely, also in a saved world", function(t)
   local drone = write("drone.xml", [[<mujoco><worldbody><body name="drone" pos="0 0 1"><freejoint/><geom size="0.1"/>
     <body><joint name="tilt" range="0 1"/><geom size="0.02" pos="0.2 0 0"/></body></body></worldbody></mujoco>]])
   local world = clench.load(drone)
@@ -210,7 +210,7 @@ test("keyframes take lists of states, with DOFs by their names", function(t)
   t.fails(function() world:add_keyframe("one", {{robot = arm, dofs = {shoulder = "up"}}}) end, "world:add_keyframe: state 1: shoulder: expected a number, got 'up'")
 end)
 
-test("a robot's or a body's file is a world with that in it", function(t)
+test("a robot's or a body's file is a world with that content", function(t)
   t.equal(#clench.load("tests/data/two_finger/claw.cfg").robots, 1)
   t.equal(clench.load("models/objects/flask.iv", {root = "."}).objects[1].name, "flask")
 end)

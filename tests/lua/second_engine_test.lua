@@ -1,4 +1,4 @@
--- ODE as a second engine: hands that close free of contacts move as ours do.
+-- ODE as a second engine: hands that close without contacts move as with Clench's solver.
 local test, clench = require "test", require "clench"
 
 local function closed(path, engine, seconds)
@@ -11,7 +11,7 @@ local function closed(path, engine, seconds)
   return hand.dofs, world.report
 end
 
-test("hands whose joints begin at their stops close as ours do, every step solved", function(t)
+test("hands whose joints start at their limits close as with Clench's solver, with every step solved", function(t)
   for _, path in ipairs {"human/human20.cfg", "human/human16.cfg", "shadow/shadow.cfg", "barrett/barrett.cfg"} do
     local ours = closed("models/hands/" .. path, "clench", 0.2)
     local ode, report = closed("models/hands/" .. path, "ode", 0.2)
@@ -39,7 +39,7 @@ local function moved(world, boxes)
   return most
 end
 
-test("a stack of boxes rests in every engine, with every cone", function(t)
+test("a stack of boxes is at rest in every engine, with every cone", function(t)
   for boxes, seconds in pairs {[2] = 1, [4] = 0.5} do
     for _, dynamics in ipairs {{engine = "ode"}, {cone = "pyramid"}, {}} do
       local world = stack(boxes, dynamics)
@@ -50,7 +50,7 @@ test("a stack of boxes rests in every engine, with every cone", function(t)
   end
 end)
 
-test("a stack that rests costs a pyramid no iterations", function(t)
+test("a stack at rest costs a pyramid no iterations", function(t)
   local world = stack(4, {cone = "pyramid"})
   world:run(0.2)
   local before = world.report.iterations
@@ -58,7 +58,7 @@ test("a stack that rests costs a pyramid no iterations", function(t)
   t.equal(world.report.iterations, before)
 end)
 
-test("boxes that are placed in each other leave a finite report in every engine", function(t)
+test("overlapping boxes leave a finite report in every engine", function(t)
   for _, dynamics in ipairs {{engine = "ode"}, {cone = "pyramid", edges = 4}, {}} do
     local world, S, random = clench.world {dynamics = dynamics}, clench.shapes, clench.random(1)
     world:add_obstacle(S.box {4, 4, 0.1}, {pose = {xyz = {0, 0, -0.05}}})

@@ -17,7 +17,7 @@ local function run_until(t, is_over)
   t.ok(is_over())
 end
 
-test("every command is described: label, parameters with a text, and a shortcut of its own", function(t)
+test("every command is described: label, parameters with a text, and a unique shortcut", function(t)
   local session, shortcuts = clench.session(), {}
   t.ok(#session.order > 45, #session.order)
   for _, name in ipairs(session.order) do
@@ -49,7 +49,7 @@ test("every command is described: label, parameters with a text, and a shortcut 
   session:command {name = "grasp.autograsp", run = nothing, shortcut = "ctrl+g", replace = true}
 end)
 
-test("commands judge the grasp as the functions do", function(t)
+test("commands evaluate the grasp like the functions", function(t)
   local session = opened()
   session:run "grasp.autograsp"
   local world, hand, mug = session.world, session.hand, session.object
@@ -148,7 +148,7 @@ test("a gesture is one step of undo, logged as its result", function(t)
   session:begin_gesture "Nothing"
   session:end_gesture()
   t.equal(#session.history.done, 4)
-  -- a result that the log cannot hold is taken back
+  -- a result that cannot be logged is reverted
   session:begin_gesture "Gravity"
   session.world.gravity = {0, 0, 0}
   t.fails(function() session:end_gesture() end, "needs a field script")
@@ -169,7 +169,7 @@ end)
 test("joints that have left their DOFs are part of the result of a gesture", function(t)
   local world = clench.world()
   local hand = world:add_robot "models/hands/barrett/barrett.cfg"
-  -- a rod where the first link of the third finger passes
+  -- a rod in the path of the first link of the third finger
   hand:set_dofs {0, 0, 0, 1.6}
   local bounds = hand.chains[3].links[1].bounds_in_world
   hand:set_dofs {0, 0, 0, 0}
@@ -185,7 +185,7 @@ test("joints that have left their DOFs are part of the result of a gesture", fun
   t.equal(first:hash(), world:hash())
 end)
 
-test("dynamics play beside the clock, are one step of undo, and are logged as their steps", function(t)
+test("dynamics run in real time, are one step of undo, and are logged as their steps", function(t)
   local session = opened()
   local first, events = session.world:hash(), 0
   session:subscribe("changed", function(value) events = events + (value.playing and 1 or 0) end)
@@ -214,7 +214,7 @@ test("dynamics play beside the clock, are one step of undo, and are logged as th
   t.ok(told:find "no more" and session.playing == nil, told)
 end)
 
-test("planners are jobs of the session: progress, grasps and results; stopped, paused, resumed", function(t)
+test("planners are jobs of the session, with progress, grasps and results, and can be stopped, paused and resumed", function(t)
   local session = opened()
   local options = {count = 2, candidates = 64, refine = 0, seed = 3, verify = false}
   local progress, over = 0, nil
@@ -255,7 +255,7 @@ test("planners are jobs of the session: progress, grasps and results; stopped, p
   t.fails(function() session:add_job(3) end, "session:add_job: expected a job, got 3")
 end)
 
-test("messages of a command become diagnostics where someone listens", function(t)
+test("messages of a command become diagnostics if there is a receiver", function(t)
   local session = opened()
   session:command {name = "mine.warn", reads = true, run = function() clench.log.warning "too thin" return 7 end}
   local list = {}

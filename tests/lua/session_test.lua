@@ -9,7 +9,7 @@ end
 
 local function replayed(session) return assert(load(session:script() .. "\nreturn world", "=script", "t"))() end
 
-test("a command changes the world, and is undone and redone to the bit", function(t)
+test("a command changes the world, and is undone and redone bit-exactly", function(t)
   local session = opened()
   local first, changed = session.world:hash(), 0
   local unsubscribe = session:subscribe("changed", function() changed = changed + 1 end)
@@ -31,7 +31,7 @@ test("a command changes the world, and is undone and redone to the bit", functio
   t.equal(session:undo(), nil)
 end)
 
-test("handles of a script live on over undo, those of removed bodies too", function(t)
+test("handles of a script stay valid after undo, including those of removed bodies", function(t)
   local session = opened()
   local mug, hand, world = session.object, session.hand, session.world
   local pose = mug.pose
@@ -60,7 +60,7 @@ test("the history is a script of plain calls that makes the same world", functio
   t.ok(script:find('clench.load("worlds/barrett_mug.wld", {root = "."})', 1, true), script)
   t.ok(script:find('world:robot("barrett"):autograsp()', 1, true), script)
   t.equal(replayed(session):hash(), session.world:hash())
-  -- undone commands are not in it
+  -- it contains no undone commands
   session:undo()
   session:undo()
   t.ok(not session:script():find "run")
@@ -88,7 +88,7 @@ test("a custom command is checked by its parameters and logged as the resulting 
   t.fails(function() session:command {name = "a.b", run = print, parameters = {{name = "x", type = "number", minimum = 1}}} end, "unknown key 'minimum'")
 end)
 
-test("a command that fails leaves the session as it was", function(t)
+test("a command that fails leaves the session unchanged", function(t)
   local session = opened()
   session:command {name = "mine.break", run = function(s)
     s.world:remove(s.object)
@@ -100,7 +100,7 @@ test("a command that fails leaves the session as it was", function(t)
   t.equal(session.world:hash(), hash)
   t.ok(session.object == mug and mug.pose ~= nil)
   t.equal(#session.history.done, 1)
-  -- commands that a command runs are part of it
+  -- commands run by a command are part of it
   session:command {name = "mine.half", run = function(s)
     s:run "grasp.autograsp"
     error "half"
@@ -116,7 +116,7 @@ test("a command that fails leaves the session as it was", function(t)
   t.equal(replayed(session):hash(), session.world:hash())
   session:undo()
   t.equal(session.world:hash(), hash)
-  -- a change that the log could not hold is refused, and so is another body
+  -- changes of state that the log cannot record are rejected, and so are new bodies
   session:command {name = "mine.gravity", run = function(s) s.world.gravity = {0, 0, -1} end}
   t.fails(function() session:run "mine.gravity" end, "needs a field script, which returns its lines of Lua")
   session:command {name = "mine.more", run = function(s) s.world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {pose = {xyz = {9, 0, 0}}}) end}
@@ -135,7 +135,7 @@ test("a command that fails leaves the session as it was", function(t)
   session:command {name = "mine.self", run = function(s) s:run "mine.self" end}
   t.fails(function() session:run "mine.self" end, "mine.self: commands that run commands are nested more than 20 deep; does one run itself?")
   t.equal(session.world:hash(), hash)
-  session:run("body.mass", {body = "mug", mass = 0.3})  -- the depth is counted anew
+  session:run("body.mass", {body = "mug", mass = 0.3})  -- the depth is counted again
   session:undo()
   local function nothing() end
   t.fails(function() session:command {name = "grasp.open", run = nothing} end, "there is a command 'grasp.open' already; replace = true")
@@ -220,22 +220,22 @@ local function random_commands(random)
   }
 end
 
-test("the log of a random session of 300 commands makes the same world, and 300 undos lead back to the first one", function(t)
+test("the log of a random session of 300 commands makes the same world, and 300 undos restore the initial one", function(t)
   local session, random = opened(), clench.random(7)
   local first = session.world:hash()
   local kinds, refused = random_commands(random), 0
-  session:subscribe("diagnostic", function() end)  -- warnings of bodies that overlap are not printed
+  session:subscribe("diagnostic", function() end)  -- warnings of overlapping bodies are not printed
   local function run_one()
     local name, args = kinds[random:integer(1, #kinds)]()
     local ok, problem = pcall(session.run, session, name, args)
     if ok then return end
-    refused = refused + 1  -- a body that is gone cannot be removed, and what was not pushed cannot be popped; motions do not start in collision
+    refused = refused + 1  -- a removed body cannot be removed, and an empty stack cannot be popped; motions do not start in collision
     t.ok(tostring(problem):find "there is no body" or tostring(problem):find "cannot run now" or tostring(problem):find "no posture"
          or tostring(problem):find "collision", problem)
   end
   while #session.history.done < 301 do
     for _ = 1, random:integer(1, 6) do run_one() end
-    -- some are undone on the way, and some of these repeated
+    -- some are undone meanwhile, and some of these redone
     for _ = 1, random:integer(0, 2) do
       if #session.history.done > 1 then session:undo() end
     end

@@ -51,7 +51,7 @@ local samples = {
   {"union", shapes.union {shapes.box {1, 1, 1}, shapes.sphere {1}}},
 }
 
-test("every shape is closed: each edge is run once each way", function(t)
+test("every shape is closed: each edge occurs once in each direction", function(t)
   for _, sample in ipairs(samples) do
     local closed, why = shapes.closed(sample[2])
     t.ok(closed, sample[1] .. ": " .. tostring(why))
@@ -62,7 +62,7 @@ test("every shape faces outward: its volume is positive", function(t)
   for _, sample in ipairs(samples) do t.ok(shapes.volume(sample[2]) > 0, sample[1]) end
 end)
 
-test("no shape has a vertex that no triangle uses, or one vertex twice", function(t)
+test("no shape has an unused vertex, or one vertex twice", function(t)
   for _, sample in ipairs(samples) do
     local used, seen = {}, {}
     for _, triangle in ipairs(sample[2].triangles) do
@@ -82,14 +82,14 @@ test("flat-sided shapes have the volume of their formulas", function(t)
   t.close(shapes.volume(shapes.box {0.1, 0.2, 0.3}), 0.006, 1e-15)
   t.close(shapes.volume(shapes.prism {letter_u, 2}), 14, 1e-12)
   t.close(shapes.volume(shapes.loft {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0.5, 0.5, 3}}}), 1, 1e-12)
-  -- a box less its twelve cut edges, w^2/2 times their length, plus what they share at eight corners: there the
-  -- three cuts together take the cube w^3 but for its inner pyramid, w^3/6
+  -- a box minus its twelve cut edges, w^2/2 times their length, plus their overlaps at the eight corners, where the three cuts together take the cube
+  -- w^3 except for its inner pyramid, w^3/6
   local x, y, z, w = 0.1, 0.2, 0.3, 0.01
   local edges = 4 * (x + y + z - 6 * w) * w * w / 2
   t.close(shapes.volume(shapes.box {x, y, z, chamfer = w}), x * y * z - edges - 8 * w ^ 3 * 5 / 6, 1e-15)
 end)
 
-test("a straight-edged chamfer takes the prismoid's volume", function(t)
+test("a straight-edged chamfer removes the prismoid's volume", function(t)
   -- a square of side s, inset by c over the height c: the prismoidal formula at both rims
   local s, h, c = 2, 1, 0.2
   local function area(inset) return (s - 2 * inset) ^ 2 end
@@ -98,9 +98,9 @@ test("a straight-edged chamfer takes the prismoid's volume", function(t)
   t.close(shapes.volume(shapes.prism {square, h, chamfer = c}), (h - 2 * c) * area(0) + 2 * rim, 1e-12)
 end)
 
-test("turned shapes approach the volume of their formulas from below, as segments squared", function(t)
+test("turned shapes approach the volume of their formulas from below, with the square of the segments", function(t)
   local function polygon_area(n) return 0.5 * n * math.sin(tau / n) end  -- of the unit circle's n-gon
-  -- in the flat-sided sense they are exact
+  -- compared with the flat-sided formula they are exact
   t.close(shapes.volume(shapes.cylinder {0.1, 0.2, segments = 12}), polygon_area(12) * 0.01 * 0.2, 1e-15)
   t.close(shapes.volume(shapes.cone {0.3, 0.1, 0.6, segments = 9}), polygon_area(9) * 0.2 * (0.09 + 0.03 + 0.01), 1e-15)
   t.close(shapes.volume(shapes.lathe {{{2, 0}, {3, 0}, {3, 1}, {2, 1}}, segments = 7}), polygon_area(7) * 5, 1e-12)
@@ -114,7 +114,7 @@ test("turned shapes approach the volume of their formulas from below, as segment
   end
 end)
 
-test("a sphere's vertices lie on it, and its volume converges by four a subdivision", function(t)
+test("a sphere's vertices lie on it, and the error of its volume falls by four per subdivision", function(t)
   local last
   for n = 1, 4 do
     local sphere = shapes.sphere {0.02, subdivisions = n}
@@ -136,7 +136,7 @@ test("a tapered capsule is the hull of its two spheres", function(t)
       local radius = r + (q - r) * s
       least = math.min(least, math.sqrt(p[1] ^ 2 + p[2] ^ 2 + (p[3] - 0.05 * s) ^ 2) - radius)
     end
-    t.close(least, 0, 1e-7)  -- the scan's step of 2.5e-5 m misses the least by its square over the radius
+    t.close(least, 0, 1e-7)  -- the scan's step of 2.5e-5 m misses the minimum by its square over the radius
   end
 end)
 
@@ -146,7 +146,7 @@ test("a tube has the volume of its section times its length", function(t)
     length = length + math.sqrt((path[i][1] - path[i - 1][1]) ^ 2 + (path[i][2] - path[i - 1][2]) ^ 2
                                 + (path[i][3] - path[i - 1][3]) ^ 2)
   end
-  -- mitres give at the outside what they take at the inside, for a section with its centroid on the path
+  -- miters add outside what they remove inside, for a section with its centroid on the path
   local section = 0.5 * 24 * math.sin(tau / 24) * 0.01 ^ 2
   t.close(shapes.volume(shapes.tube {path, radius = 0.01}), section * length, 1e-12)
 end)
@@ -154,7 +154,7 @@ end)
 test("an outline rounds convex and concave corners by arcs that touch both edges", function(t)
   local corner = {{0, 0}, {2, 0}, {2, 2}, {0, 2}}
   local function area(points) return shapes.volume(shapes.prism {points, 1}) end
-  -- each corner loses r^2 less a quarter circle; 64 chords miss the arc by its (angle / 64)^2
+  -- each corner loses r^2 minus a quarter circle; 64 chords differ from the arc by its (angle / 64)^2
   t.close(area(shapes.outline {corner[1], corner[2], corner[3], corner[4], rounding = 0.5, segments = 64}),
           4 - 0.25 * (4 - math.pi), 1e-4)
   local plain = shapes.outline {table.unpack(letter_u)}
@@ -166,7 +166,7 @@ test("an outline rounds convex and concave corners by arcs that touch both edges
   t.close(area(one), 4 - 0.25 * (1 - math.pi / 4), 1e-4)
 end)
 
-test("moving, turning and mirroring keep the volume and the outside; scaling multiplies it", function(t)
+test("moving, turning and mirroring keep the volume and the orientation, and scaling multiplies the volume", function(t)
   local solid = shapes.prism {letter_u, 1}
   local moved = shapes.move(solid, {10, -20, 30})
   local turned = shapes.turn(moved, {1, 2, 3}, 0.7, {1, 1, 1})
@@ -182,7 +182,7 @@ test("moving, turning and mirroring keep the volume and the outside; scaling mul
   t.close(low[2], -0.5, 1e-12)
 end)
 
-test("mass properties of a box are those of the book, wherever it stands", function(t)
+test("mass properties of a box equal the formulas, at any position", function(t)
   local x, y, z = 0.1, 0.2, 0.3
   local mass = shapes.mass(shapes.move(shapes.box {x, y, z}, {1, 2, 3}))
   t.close(mass.volume, 0.006, 1e-15)
@@ -195,7 +195,7 @@ end)
 
 test("area of a box", function(t) t.close(shapes.area(shapes.box {1, 2, 3}), 22, 1e-12) end)
 
-test("an open or inside-out mesh is told from a solid", function(t)
+test("an open or inside-out mesh is distinguished from a solid", function(t)
   local box = shapes.box {1, 1, 1}
   box.triangles[#box.triangles] = nil
   local closed, why = shapes.closed(box)
@@ -209,18 +209,18 @@ test("an open or inside-out mesh is told from a solid", function(t)
   t.ok(why:find "same direction", why)
 end)
 
-test("sizes may be given by place or by name", function(t)
+test("sizes may be given by position or by name", function(t)
   t.equal(#shapes.sphere {radius = 0.1}.vertices, #shapes.sphere {0.1}.vertices)
   t.close(shapes.volume(shapes.box {x = 1, y = 2, z = 3}), 6, 1e-12)
 end)
 
-test("an unknown key is named, with those that are known", function(t)
+test("an unknown key is reported with the known ones", function(t)
   t.fails(function() shapes.box {1, 2, 3, roundign = 1} end, "shapes.box: unknown key 'roundign'", "rounding")
   t.fails(function() shapes.sphere {1, 2} end, "shapes.sphere: unknown key '2'")
   t.fails(function() shapes.bxo {1, 2, 3} end, "there is no 'bxo'", "; did you mean 'box'?")
 end)
 
-test("bad numbers are refused with what was expected and what was got", function(t)
+test("bad numbers are rejected with expected and got values", function(t)
   local nan = 0 / 0
   t.fails(function() shapes.box {1, 2, -3} end, "shapes.box: z must be a number > 0, got -3")
   t.fails(function() shapes.box {("x"):rep(5000), 1, 1} end, "got '" .. ("x"):rep(117) .. "...'")
@@ -247,7 +247,7 @@ test("bad numbers are refused with what was expected and what was got", function
   t.fails(function() shapes.torus {1, 1} end, "tube must be smaller than radius, 1, got 1")
 end)
 
-test("bad outlines, profiles, sections and paths are refused", function(t)
+test("bad outlines, profiles, sections and paths are rejected", function(t)
   t.fails(function() shapes.prism {{{0, 0}, {1, 1}, {1, 0}, {0, 1}}, 1} end, "edges 1 and 3 meet")
   t.fails(function() shapes.prism {{{0, 0}, {0, 0}, {1, 0}}, 1} end, "edge 1 has no length")
   t.fails(function() shapes.prism {{{0, 0}, {1, 0}}, 1} end, "at least 3 points {x, y}", "a table of 2")
@@ -283,7 +283,7 @@ test("bad outlines, profiles, sections and paths are refused", function(t)
   t.fails(function() shapes.tube {path, radius = 1, closed = 1} end, "closed must be true or false, got 1")
 end)
 
-test("what is no mesh is refused by name and number", function(t)
+test("invalid meshes are rejected by name and number", function(t)
   t.fails(function() shapes.union {} end, "a list of shapes, got none")
   t.fails(function() shapes.union {shapes.box {1, 1, 1}, 7} end, "part 2", "got 7")
   t.fails(function() shapes.volume {vertices = {{0, 0, 0}}, triangles = {{1, 2, 3}}} end,
@@ -299,7 +299,7 @@ test("what is no mesh is refused by name and number", function(t)
   t.fails(function() shapes.mirror(shapes.box {1, 1, 1}, "w") end, "'x', 'y' or 'z', got 'w'")
 end)
 
-test("vectors and vertices that are numbers, or beyond what a mesh may reach, are refused", function(t)
+test("invalid vectors and vertices, and coordinates beyond the limit of meshes, are rejected", function(t)
   local box = shapes.box {1, 1, 1}
   t.fails(function() shapes.move(box, 5) end, "shapes.move: the offset must be {x, y, z} of at most 1e+09, got 5")
   t.fails(function() shapes.turn(box, 1, 1) end, "the axis must be {x, y, z} of at most 1e+09, got 1")
@@ -316,7 +316,7 @@ test("vectors and vertices that are numbers, or beyond what a mesh may reach, ar
   t.fails(function() shapes.mass(shapes.scale(box, 1e-107)) end, "expected a solid, got a shape without volume")
 end)
 
-test("whole coordinates do not go round where products of them would", function(t)
+test("integer coordinates do not overflow in products", function(t)
   local far = 10^9 // 1 | 0
   local solid = {vertices = {{0, 0, 0}, {far, 0, 0}, {0, far, 0}, {0, 0, far}},
                  triangles = {{1, 3, 2}, {1, 2, 4}, {1, 4, 3}, {2, 3, 4}}}
@@ -324,7 +324,7 @@ test("whole coordinates do not go round where products of them would", function(
   t.close(shapes.mass(solid).volume / (1e27 / 6), 1, 1e-12)
 end)
 
-test("messages of the standard library have no control characters, and of long names both ends", function(t)
+test("messages of the standard library have no control characters, and long names are shown by both ends", function(t)
   t.fails(function() shapes.ring {radius = 1, ["a\27[2J\0"] = 1} end, "shapes.ring: unknown key 'a?[2J\\0', expected any of")
   local ok, message = pcall(function() shapes.ring {radius = 1, [("\u{fc}"):rep(5000)] = 1} end)
   t.equal(ok, false)
@@ -332,7 +332,7 @@ test("messages of the standard library have no control characters, and of long n
   t.ok(message:find("expected any of radius, segments", 1, true), message)
 end)
 
-test("meshes of bodies and vectors count as shapes and points", function(t)
+test("meshes of bodies and vectors are accepted as shapes and points", function(t)
   local clench = require "clench"
   local vec3 = clench.vec3
   local box = shapes.box {0.1, 0.2, 0.3}

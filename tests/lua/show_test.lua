@@ -1,4 +1,4 @@
--- Values as the console prints them.
+-- Values as printed by the console.
 local test, show = require "test", require "clench.show"
 
 test("tables show their contents, lists first, names sorted", function(t)
@@ -10,7 +10,7 @@ test("tables show their contents, lists first, names sorted", function(t)
   t.equal(show {clench.vec3(1, 2, 3)}, "{(1, 2, 3)}")
 end)
 
-test("what is long, deep or within itself is cut short and says so", function(t)
+test("long, deep or recursive values are abbreviated, with a mark", function(t)
   local long = {}
   for i = 1, 1000 do long[i] = i end
   t.ok(#show(long) < 500)
@@ -24,7 +24,7 @@ test("what is long, deep or within itself is cut short and says so", function(t)
   t.equal(show(deep), "{{{{{{...}}}}}}")
 end)
 
-test("a table with a text of its own shows it, even when that fails", function(t)
+test("a table with its own __tostring shows that, even if it fails", function(t)
   t.equal(show(setmetatable({}, {__tostring = function() return "mine" end})), "mine")
   t.ok(show(setmetatable({}, {__tostring = function() error("no", 0) end})):find "whose text fails: no")
   t.equal(show(setmetatable({1}, {__index = function() error "ran" end, __len = function() return 9 end})), "{1}")

@@ -54,7 +54,7 @@ test("options in a type are fields with the prose of their name", function(t)
   t.equal(fields[4].fields[1].name, "e")
 end)
 
-test("limits are written as they are read", function(t)
+test("limits are parsed as written", function(t)
   for _, limits in ipairs {"[m/s, > 0] = 1.5", "[1 to 1000000] = 100", "[>= 0, < 1]", '= "slow"', "[N]"} do
     local item = signature.parse("@param x number " .. limits).parameters[1]
     t.equal(signature.limits(item), limits)
@@ -67,7 +67,7 @@ test("the type of a table is made from the lines of its options", function(t)
           "{a?: integer, b: vec3}")
 end)
 
-test("a faulty description is refused with its fault", function(t)
+test("a faulty description is rejected with its fault", function(t)
   t.fails(function() signature.parse "@parm x number" end, "unknown tag @parm")
   t.fails(function() signature.parse "@option x? number" end, "the option x follows no @param")
   t.fails(function() signature.parse "@param o table\n@option a.b? number" end, "there is no option a before it")
@@ -77,7 +77,7 @@ test("a faulty description is refused with its fault", function(t)
   t.fails(function() signature.parse "@effect writes" end, "reads, edits, files or long, got 'writes'")
 end)
 
-test("functions, methods and fields are described by themselves or by name", function(t)
+test("functions, methods and fields are described by value or by name", function(t)
   local world = clench.world()
   t.equal(clench.describe(clench.rad).name, "clench.rad")
   t.equal(clench.describe(world.body), clench.describe "world:body")
@@ -100,14 +100,14 @@ local function beyond(option)
   return values
 end
 
--- calls a planner with one option, and asks for a key that it does not have, so that no search begins
+-- calls a planner with one option and an unknown key, so that no search begins
 local function try(planner, given)
   given.no_such_key = 1
   local ok, message = pcall(clench.plan[planner], given)
   return not ok and tostring(message) or "no error"
 end
 
-test("planners refuse what is beyond a described range, and take its bounds, its default, and every option", function(t)
+test("planners reject numbers beyond a described range, and accept its bounds, its default, and every option", function(t)
   local world = clench.load "worlds/parallel_jaw_cube.wld"
   local hand, object, tried, defaults = world.robots[1], world.objects[1], 0, 0
   for _, planner in ipairs {"anneal", "antipodal", "guided", "list", "loop", "online", "primitive", "random", "sample"} do
@@ -145,7 +145,7 @@ test("planners refuse what is beyond a described range, and take its bounds, its
   t.ok(defaults > 80, defaults)
 end)
 
-test("a default that is given gives the same grasps as without it", function(t)
+test("an explicitly given default gives the same grasps", function(t)
   local world = clench.load "worlds/parallel_jaw_cube.wld"
   for _, planner in ipairs {"random", "sample", "antipodal"} do
     local function search(more)

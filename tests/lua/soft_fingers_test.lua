@@ -10,7 +10,7 @@ local function pressed(turn)
   return world, top, ball
 end
 
-test("a contact is soft when a body is elastic and there is friction", function(t)
+test("a contact is soft if a body is elastic and there is friction", function(t)
   local world, top, ball = pressed()
   local function kind() return world:contacts(top, ball)[1].kind end
   t.equal(kind(), "soft")
@@ -24,7 +24,7 @@ test("a contact is soft when a body is elastic and there is friction", function(
   t.equal(kind(), "frictionless")
 end)
 
-test("the patch is that of closed formulas, whichever body is asked and wherever they stand", function(t)
+test("the patch is that of closed formulas, for either body and any pose", function(t)
   local delta = math.sqrt(5 * 0.003 / (1.5e6 * math.pi * 0.02))
   local limit
   for _, turn in ipairs {{0, 0, 0}, {1, 0.3, -2}, {-0.4, 1.5, 0.1}} do
@@ -36,7 +36,7 @@ test("the patch is that of closed formulas, whichever body is asked and wherever
       t.close(round, {50, 50}, 0.02)
       t.close(patch:ellipse().semi_axes, {math.sqrt(2 * delta * 0.02), math.sqrt(2 * delta * 0.02)}, 1e-6)
       t.close(patch:torsion_limit {force = 5}, 5 * 8 * math.sqrt(2 * delta * 0.02) / 15, 1e-6)
-      -- the same world turned: only rounding may tell
+      -- the same world, turned: equal up to rounding
       limit = limit or patch:torsion_limit()
       t.close(patch:torsion_limit(), limit, 1e-9)
       t.close(patch.directions[1]:dot(contact.normal), 0, 1e-9)
@@ -46,7 +46,7 @@ test("the patch is that of closed formulas, whichever body is asked and wherever
   end
 end)
 
-test("a patch stays as it was when the bodies move on or go", function(t)
+test("a patch does not change when the bodies move or are removed", function(t)
   local world, top, ball = pressed()
   local contact = world:contacts(top, ball)[1]
   ball.pose = {xyz = {1, 1, 1}}
@@ -54,7 +54,7 @@ test("a patch stays as it was when the bodies move on or go", function(t)
   t.close(contact.patch.relative_radii[1], 0.02, 1e-5)
 end)
 
-test("corners and edges are warned of once a contact, and once a hand and object", function(t)
+test("corners and edges cause a warning once per contact, and once per hand and object", function(t)
   local world = clench.world()
   local top = world:add_obstacle(clench.shapes.box {0.2, 0.2, 0.02}, {name = "top", pose = {xyz = {0, 0, -0.01}}})
   local block = world:add_object(clench.shapes.box {0.03, 0.03, 0.03}, {
@@ -82,7 +82,7 @@ test("corners and edges are warned of once a contact, and once a hand and object
   t.ok(heard[1]:find "^grasp of mug by barrett: %d of %d contacts are soft ones on corners or edges", heard[1])
 end)
 
-test("coarse round links are no edges, box-shaped ones are", function(t)
+test("coarse round links are not edges, and box-shaped ones are", function(t)
   local function sharp(file)
     local scene = clench.load(file)
     local hand, object = scene.robots[1], scene.objects[1]

@@ -1,7 +1,7 @@
 -- A hand that squeezes a ball until it slips out.
 local test, clench = require "test", require "clench"
 
-test("a ball that slips out of closing fingers takes no more energy than motors give, and no step fails", function(t)
+test("a ball that slips out of closing fingers gets no more energy than motors provide, and no step fails", function(t)
   local world = clench.load "worlds/three_finger_sphere.wld"
   local hand, ball = world.robots[1], world.objects[1]
   ball.mass = 0.1

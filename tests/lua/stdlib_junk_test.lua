@@ -1,5 +1,5 @@
--- Every function and method of the standard library, called with what makes no sense: an error is a sentence about the caller's mistake, at
--- the caller's place, and never one of Lua's own about a line of the library.
+-- Every function and method of the standard library, called with invalid arguments: an error is a sentence about the caller's mistake, at the
+-- caller's place, and never one of Lua about a line of the library.
 local clench = require "clench"
 local test = require "test"
 local doc = require "clench.host.doc"
@@ -17,7 +17,7 @@ local junk = {
   {{1, 2, 3}, 5}, {{1, 2, 3}, {}}, {{1, 2, 3}, {x = 1}}, {{1, 2, 3}, "x"}, {hand, object}, {world, 5}, {5, 5, 5, 5, 5, 5},
 }
 
--- fault of an error; nil if it is a sentence of ours
+-- fault of an error; nil for a proper sentence
 local function fault(problem)
   local text = tostring(problem)
   if type(problem) == "table" and problem.kind == "internal" then return text end
@@ -26,7 +26,7 @@ local function fault(problem)
   end
 end
 
--- what a call has opened, such as a simulated device, is closed: it would keep the loop running
+-- closes objects that a call has opened, such as a simulated device, which would keep the loop running
 local function call(fn, arguments)
   local ok, result = pcall(fn, table.unpack(arguments, 1, arguments.n or #arguments))
   local kind = ok and debug.getmetatable(result)
@@ -34,7 +34,7 @@ local function call(fn, arguments)
   return ok, result
 end
 
--- adds what is wrong to a list, once for each function
+-- adds a fault to a list, once per function
 local function try(list, name, fn, arguments)
   local ok, problem = call(fn, arguments)
   local wrong = not ok and fault(problem)
@@ -48,11 +48,11 @@ end
 
 local public = {}
 for _, entry in ipairs(packed_docs.functions(clench.entries().files)) do
-  -- a test that is run reports what it has wrong
+  -- a test that is run reports its faults
   if entry.name ~= "test.run_file" then public[#public + 1] = {name = "clench." .. entry.name, fn = entry.fn} end
 end
 
-test("no function of the standard library answers junk with an error of Lua's own", function(t)
+test("no function of the standard library answers invalid arguments with an error of Lua", function(t)
   t.ok(#public > 50, #public)
   local silent, list = clench.log.level "quiet", {}
   for _, entry in ipairs(public) do
@@ -62,7 +62,7 @@ test("no function of the standard library answers junk with an error of Lua's ow
   t.equal(table.concat(list, "\n"), "")
 end)
 
-test("no method of what the standard library returns answers junk with an error of Lua's own", function(t)
+test("no method of objects returned by the standard library answers invalid arguments with an error of Lua", function(t)
   local recording, log = world:record(), world:log {quantities = {"energy"}}
   local task = world:spawn(function() end)
   world:run(0.05)
@@ -88,7 +88,7 @@ test("no method of what the standard library returns answers junk with an error 
   t.equal(table.concat(list, "\n"), "")
 end)
 
-test("no option of the standard library answers junk with an error of Lua's own", function(t)
+test("no option of the standard library answers invalid values with an error of Lua", function(t)
   local silent, list = clench.log.level "quiet", {}
   local values = {5, -1, 0 / 0, "x", true, {}, {5}, {{}}, nothing, world, clench.vec3(0, 0, 0)}
   for _, entry in ipairs(clench.entries().files) do
@@ -96,7 +96,7 @@ test("no option of the standard library answers junk with an error of Lua's own"
       local module = found.name:match "^[%w_]+"
       for i, param in ipairs(doc.parse(found.doc).params) do
         for key in param.type:gmatch "[{ ]([%a_][%w_]*)%??: " do
-          -- such a value alone, so that none that is taken begins a long search
+          -- one such value at a time, so that an accepted one begins no long search
           for _, value in ipairs(values) do
             local arguments = {n = i}
             for k = 1, i - 1 do arguments[k] = {1, 2, 3} end

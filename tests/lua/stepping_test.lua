@@ -13,7 +13,7 @@ local function box(world, gap, options)
   return world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, options)
 end
 
-test("a ball that rolls fast meets nothing", function(t)
+test("a fast rolling ball has no impacts", function(t)
   for _, speed in ipairs {0.5, 1, 2, 5} do
     local world = clench.world()
     floor(world)
@@ -26,7 +26,7 @@ test("a ball that rolls fast meets nothing", function(t)
   end
 end)
 
-test("small forces move what nothing holds, at every step", function(t)
+test("small forces move free bodies, with any time step", function(t)
   for step, angle in pairs {[1e-3] = 2e-5, [1e-4] = 5e-5, [1e-5] = 5e-4} do
     local world = clench.world {dynamics = {time_step = step}}
     world.gravity = {9.81 * math.sin(angle), 0, -9.81 * math.cos(angle)}
@@ -44,7 +44,7 @@ test("small forces move what nothing holds, at every step", function(t)
   t.close(block.velocity.linear.x, 1.8e-4, 1e-7)
 end)
 
-test("tendons stop at their targets, whatever meets elsewhere", function(t)
+test("tendons stop at their targets, regardless of impacts elsewhere", function(t)
   local world = clench.world {gravity = {0, 0, 0}}
   local hand = world:add_robot "models/hands/tendon_gripper/tendon_gripper.cfg"
   for _, body in ipairs(hand.bodies) do world:set_collision(false, body) end
@@ -63,7 +63,7 @@ test("tendons stop at their targets, whatever meets elsewhere", function(t)
   t.ok(world.report.impacts > 100)
 end)
 
-test("contacts are those of the threshold that holds now", function(t)
+test("contacts use the current threshold", function(t)
   local world = clench.world {gravity = {0, 0, 0}}
   floor(world)
   box(world, 2e-4)
@@ -74,7 +74,7 @@ test("contacts are those of the threshold that holds now", function(t)
   t.equal(world.report.contacts, 4)
 end)
 
-test("what is placed anew keeps the targets of its motors", function(t)
+test("setting a posture keeps the targets of motors", function(t)
   local world = clench.load("worlds/dlr_flask.wld", {root = "."})
   local hand = world.robots[1]
   world.gravity = {0, 0, 0}
@@ -90,7 +90,7 @@ test("what is placed anew keeps the targets of its motors", function(t)
   t.close(hand.dofs[2], start + 0.2, 5e-3)
 end)
 
-test("an adapter moves with the arm that carries it, and a hand that is placed with its arm", function(t)
+test("an adapter and a hand move with the arm that carries them, also after the hand's DOFs are set", function(t)
   local world = clench.load("worlds/puma_barrett_glass.wld", {root = "."})
   local arm, hand = world.robots[1], world.robots[2]
   world:set_collision(false)
@@ -108,7 +108,7 @@ test("an adapter moves with the arm that carries it, and a hand that is placed w
   t.close((hand.base.velocity.linear - base.linear):norm(), 0, 1e-12)
 end)
 
-test("what is welded in a row moves as its first", function(t)
+test("bodies welded in a row move with the first", function(t)
   local world = clench.world {gravity = {0, 0, 0}}
   world:set_collision(false)
   local row = {}
@@ -120,7 +120,7 @@ test("what is welded in a row moves as its first", function(t)
   for i = 2, 5 do t.close(row[i].velocity.linear.y, 2 * 0.1 * (i - 1), 1e-12) end
 end)
 
-test("contacts that a listener did not see begin are no events", function(t)
+test("contacts that existed before a listener was added are not events", function(t)
   local world = clench.world()
   floor(world)
   local block = box(world, 2.5e-5)
@@ -137,7 +137,7 @@ test("contacts that a listener did not see begin are no events", function(t)
   t.equal(events, {"contact_lost", "contact"})
 end)
 
-test("a box that stands on the floor overlaps nothing", function(t)
+test("a box on the floor overlaps nothing", function(t)
   local world = clench.world()
   floor(world)
   local block = box(world, 0)
@@ -146,7 +146,7 @@ test("a box that stands on the floor overlaps nothing", function(t)
   t.ok(math.abs(block.pose.position.z - 0.05) < 1e-4)
 end)
 
-test("a thousand bodies that meet in one step, and what whirls, do not stop time", function(t)
+test("a thousand bodies that collide in one step, and fast rotation, do not stop time", function(t)
   local world = clench.world()
   floor(world)
   for i = 0, 1099 do
@@ -164,7 +164,7 @@ test("a thousand bodies that meet in one step, and what whirls, do not stop time
   t.equal(world.report.impacts, 0)
 end)
 
-test("a hand that whirls gains no energy", function(t)
+test("a fast rotating hand gains no energy", function(t)
   local world = clench.world {gravity = {0, 0, 0}}
   local hand = world:add_robot "models/hands/barrett/barrett.cfg"
   hand.floating = true
@@ -174,7 +174,7 @@ test("a hand that whirls gains no energy", function(t)
   t.close(world:energy().kinetic / before, 1, 0.2)
 end)
 
-test("aligned boxes that meet face to face leave along their way", function(t)
+test("aligned boxes separate along their line of motion after a face-to-face impact", function(t)
   for _, distance in ipairs {0.1, 0.26, 0.48, 0.5} do
     for axis = 1, 3 do
       local world = clench.world {gravity = {0, 0, 0}, dynamics = {time_step = 0.00025}}
@@ -188,7 +188,7 @@ test("aligned boxes that meet face to face leave along their way", function(t)
       world:add_object(shape, {mass = 5, pose = {xyz = along(distance / 2 + 0.05)}})
       a.velocity = {linear = along(1)}
       world:run(distance + 0.001)
-      -- both go on as one, but for the gap that opens
+      -- both continue together, except for the gap that opens
       t.close(a.velocity.linear, along(1 / 6), 5e-3)
       t.close(a.velocity.angular, {0, 0, 0}, 1e-3)
     end

@@ -7,7 +7,7 @@ local function write(name, text)
   return path
 end
 
-test("with `strict` every way to read refuses what it else warns of", function(t)
+test("with `strict` every reader rejects data that otherwise cause a warning", function(t)
   local body = write("body.xml", "<root>\n<mass>-300</mass></root>")
   local world = write("world.xml", "<world><graspableBody><filename>" .. body .. "</filename></graspableBody></world>")
   local grasps = write("set.egr", "DIMENSIONS 1\nEG\n1\n1 2\n")
@@ -30,7 +30,7 @@ test("with `strict` every way to read refuses what it else warns of", function(t
   t.fails(function() w:add_object(body, {strict = 1}) end, "strict")
 end)
 
-test("a Lua world that loads itself is told by the line that does, by whatever name", function(t)
+test("a Lua world that loads itself is reported with the line that does, for any path to it", function(t)
   local path, by_link = folder .. "/itself.lua", folder .. "/by_link.lua"
   assert(os.execute(("ln -s %s %s"):format(path, by_link)))
   clench.files.save_text(path, ("local clench = require 'clench'\nreturn clench.load %q"):format(by_link))

@@ -1,4 +1,4 @@
--- Studies of grasps: their random numbers, their statistics, and what they find of grasps whose answer is known.
+-- Studies of grasps: their random numbers, their statistics, and results for grasps with known answers.
 local test, clench = require "test", require "clench"
 local stats = require "clench.stats"
 
@@ -9,7 +9,7 @@ local function closed_on_flask()
   return clench.grasp(hand, flask)
 end
 
-test("a spread tells mean, deviation and quantiles of numbers", function(t)
+test("a spread contains mean, deviation and quantiles of numbers", function(t)
   local s = stats.summary {4, 1, 3, 2, 5}
   t.close({s.mean, s.min, s.median, s.max}, {3, 1, 3, 5}, 1e-15)
   t.close(s.std, math.sqrt(2.5), 1e-15)
@@ -18,7 +18,7 @@ test("a spread tells mean, deviation and quantiles of numbers", function(t)
   t.close({one.mean, one.std, one.p05, one.p95}, {7, 0, 7, 7}, 0)
 end)
 
-test("the interval of a probability holds it, and shrinks with more trials", function(t)
+test("the interval of a probability contains it, and shrinks with more trials", function(t)
   for _, trials in ipairs {1, 10, 1000} do
     for successes = 0, trials, math.max(1, trials // 7) do
       local i = stats.interval(successes, trials)
@@ -49,7 +49,7 @@ test("soft fingers stay soft in every sample", function(t)
   t.ok(clench.study.robustness(soft, {samples = 2}).samples[2] == soft:quality "epsilon")
 end)
 
-test("the same seed gives the same bits, sample by sample, however many are drawn", function(t)
+test("the same seed gives bit-identical samples, for any number of samples", function(t)
   local grasp = closed_on_flask()
   local errors = {samples = 12, seed = 3, friction = 0.3, normal = 0.1}
   local first = clench.study.robustness(grasp, errors).samples
@@ -60,13 +60,13 @@ test("the same seed gives the same bits, sample by sample, however many are draw
   t.ok(clench.study.robustness(grasp, errors).samples[1] ~= first[1])
 end)
 
-test("an object out of place is grasped anew, and the world stays as it is", function(t)
+test("a displaced object is grasped again, and the world is unchanged", function(t)
   local grasp = closed_on_flask()
   local before = grasp.hand.world:hash()
   local r = clench.study.robustness(grasp, {samples = 6, position = 0.004, angle = 0.05})
   t.ok(grasp.hand.world:hash() == before)
   t.ok(r.std > 0 and r.max < 1)
-  -- errors of no size give the grasp itself, but for where in the threshold its fingers stop
+  -- errors of size zero give the grasp itself, except for the stop of its fingers within the threshold
   local same = clench.study.robustness(grasp, {samples = 3, position = 1e-9})
   t.close(same.mean, grasp:quality "epsilon", 0.1 * grasp:quality "epsilon")
   t.ok(same.probability == 1)
@@ -74,7 +74,7 @@ test("an object out of place is grasped anew, and the world stays as it is", fun
   t.ok(far.probability == 0 and far.mean == 0)
 end)
 
-test("robustness is that of the grasp, wherever the hand and the object have gone since", function(t)
+test("robustness is that of the grasp, after any motion of the hand and the object", function(t)
   local grasp = closed_on_flask()
   local hand, flask = grasp.hand, grasp.object
   local errors = {samples = 4, position = 0.001, angle = 0.01}
@@ -93,7 +93,7 @@ test("robustness is that of the grasp, wherever the hand and the object have gon
   again(1e-4)
 end)
 
-test("robustness counts with the center of mass with which the grasp was measured", function(t)
+test("robustness uses the center of mass with which the grasp was evaluated", function(t)
   local grasp = closed_on_flask()
   local epsilon = grasp:quality "epsilon"
   local moving = {samples = 3, position = 0.001}
@@ -106,11 +106,11 @@ test("robustness counts with the center of mass with which the grasp was measure
     coms[#coms + 1] = object.com.z
   end
   t.close(clench.study.robustness(grasp, moving).samples, first, 0)
-  t.close(coms[1], 0.0743072, 1e-6)  -- as models/objects/flask.iv has it
+  t.close(coms[1], 0.0743072, 1e-6)  -- as in models/objects/flask.iv
   t.equal(grasp.object.com.z, 0.03)
 end)
 
-test("a grasp whose friction has changed is stale for errors of pose, not for those of friction", function(t)
+test("a grasp with changed friction is stale for errors of pose, but not for those of friction", function(t)
   local grasp = closed_on_flask()
   local hand, flask = grasp.hand, grasp.object
   local first = clench.study.robustness(grasp, {samples = 3, friction = 0.2}).samples
@@ -121,7 +121,7 @@ test("a grasp whose friction has changed is stale for errors of pose, not for th
   t.ok(tostring(problem):find("study.robustness: friction has changed since the grasp was measured; measure it anew", 1, true))
 end)
 
-test("a hand on an arm is put back by its joints, and is stale where the arm has moved it", function(t)
+test("a hand on an arm is restored by its joints, and is stale if the arm has moved it", function(t)
   local world = clench.load("worlds/puma_barrett_glass.wld", {root = "."})
   local hand, glass = world.robots[2], world.objects[1]
   hand:autograsp()
@@ -139,7 +139,7 @@ test("a hand on an arm is put back by its joints, and is stale where the arm has
           "study.robustness: hand and object have moved apart since the grasp was measured; measure it anew")
 end)
 
-test("an arm brings its hand to where the grasp has it, or stays with all else where it cannot reach", function(t)
+test("an arm brings its hand to the pose of the grasp, or everything stays if it cannot reach it", function(t)
   local world = clench.load("worlds/puma_barrett_glass.wld", {root = "."})
   local arm, hand, glass = world.robots[1], world.robots[2], world.objects[1]
   hand:autograsp()
@@ -159,7 +159,7 @@ test("an arm brings its hand to where the grasp has it, or stays with all else w
   t.equal(arm.dofs, posture)
 end)
 
-test("a grasp that belongs to no world is studied as far as possible, otherwise the error names the remedy", function(t)
+test("a grasp without a world is studied as far as possible, otherwise the error names the remedy", function(t)
   local grasp = closed_on_flask()
   local list = clench.grasps()
   list:add(grasp)
@@ -173,7 +173,7 @@ test("a grasp that belongs to no world is studied as far as possible, otherwise 
   t.close(clench.study.robustness(loose, errors).samples, clench.study.robustness(grasp, errors).samples, 1e-9)
 end)
 
-test("errors in millimeters and degrees are told once, with the script's line", function(t)
+test("errors in millimeters and degrees are reported once, with the script's line", function(t)
   local said = clench.parallel.map(function()
     local clench, said = require "clench", {}
     clench.log.sink(function(_, text) said[#said + 1] = text end)
@@ -184,21 +184,21 @@ test("errors in millimeters and degrees are told once, with the script's line", 
     clench.study.robustness(grasp, {samples = 1, position = 0.2, angle = 6})
     for _ = 1, 2 do clench.study.robustness(grasp, {samples = 1, position = 3, angle = 15}) end
     return table.concat(said, "\n")
-  end, {1})[1]  -- in a state of its own, for it is told once in each
+  end, {1})[1]  -- in a separate state, because it is reported once per state
   local _, meters = said:gsub("meters%?", "")
   local _, radians = said:gsub("radians%?", "")
   t.ok(radians == 1 and said:find("study.robustness: angle is 15: radians? clench.rad(15) is 0.2618", 1, true), said)
   t.ok(meters == 1 and said:find("study_test.lua:%d+: study.robustness: position is 3 m, more than the object's size of 0.281 m: meters%? clench.mm%(3%) is 0.003"), said)
 end)
 
-test("where friction may vanish, so may force closure", function(t)
+test("if friction may vanish, so may force closure", function(t)
   -- a factor 1 + 3 n, n normal, is below 0 in 37 % of all samples; 0.2 is three deviations of 60 samples
   local r = clench.study.robustness(closed_on_flask(), {samples = 60, friction = 3})
   t.ok(r.probability > 0.4 and r.probability < 0.85)
   t.ok(r.min == 0 and r.interval.low < r.probability and r.probability < r.interval.high)
 end)
 
-test("closing is the caller's if he likes", function(t)
+test("the caller may provide a closing function", function(t)
   local grasp, called = closed_on_flask(), 0
   clench.study.robustness(grasp, {samples = 3, position = 0.001, close = function(hand, object)
     called = called + 1
@@ -207,7 +207,7 @@ test("closing is the caller's if he likes", function(t)
   t.ok(called == 3)
 end)
 
-test("what is wrong with the options is said in a sentence", function(t)
+test("faults of options are reported in one sentence", function(t)
   local grasp = closed_on_flask()
   local function refused(given, sentence) t.fails(function() clench.study.robustness(grasp, given) end, sentence) end
   refused({samples = 0}, "study.robustness: samples must be a whole number from 1 to 1000000, got 0")
@@ -235,7 +235,7 @@ test("grasps are compared measure by measure, and drawn", function(t)
   t.ok(picture.width == 400 and picture == c:chart {title = "friction", width = 400})
 end)
 
-test("letters that a chart cannot draw are named once a chart", function(t)
+test("letters that a chart cannot draw are named once per chart", function(t)
   local heard = {}
   clench.log.sink(function(level, message) heard[#heard + 1] = level .. ": " .. message end)
   local function draw(title) clench.chart {title = title, labels = {title}, series = {{name = title, values = {1}}}, width = 200} end
@@ -249,7 +249,7 @@ test("letters that a chart cannot draw are named once a chart", function(t)
   t.ok(heard[2]:find "and 12 more$")
 end)
 
-test("the best of a panel is the least where the measure says so", function(t)
+test("the best of a panel is the minimum for measures that should be small", function(t)
   local grasp = closed_on_flask()
   local hand, flask = grasp.hand, grasp.object
   hand.world:set_friction(flask.material, "rubber", {static = 0.8, kinetic = 0.8})
@@ -263,7 +263,7 @@ test("the best of a panel is the least where the measure says so", function(t)
   t.ok(c:chart() == by_hand(true) and c:chart() ~= by_hand(false))
 end)
 
-test("a comparison without grasps or with strange ones is refused", function(t)
+test("a comparison without grasps or with other values is rejected", function(t)
   t.fails(function() clench.study.compare {} end, "study.compare: expected at least one grasp, got none")
   t.fails(function() clench.study.compare {3} end, "study.compare: grasps[1]: expected a grasp, got 3")
   t.fails(function() clench.study.compare(closed_on_flask()) end, "study.compare: expected a list of grasps, got a grasp")
@@ -272,7 +272,7 @@ test("a comparison without grasps or with strange ones is refused", function(t)
   t.fails(function() clench.study.compare({grasp}, {labels = {"a", "b"}}) end, "study.compare: expected 1 label, one per grasp, got 2")
 end)
 
-test("the best grasp is that of the least effort, and what holds nothing is drawn as missing", function(t)
+test("the best grasp is that of the least effort, and one that holds nothing is drawn as missing", function(t)
   local grasp = closed_on_flask()
   local hand, flask = grasp.hand, grasp.object
   local slippery = hand.world:clone()
@@ -285,7 +285,7 @@ test("the best grasp is that of the least effort, and what holds nothing is draw
   t.fails(function() clench.study.compare({grasp}, {labels = "a"}) end, "study.compare: labels must be a list of strings, got 'a'")
 end)
 
-test("of grasps that are compared only those that stand in no world are applied", function(t)
+test("among compared grasps only those without a world are applied", function(t)
   local grasp = closed_on_flask()
   local list = clench.grasps()
   list:add(grasp)

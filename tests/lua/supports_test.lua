@@ -21,7 +21,7 @@ end
 
 local function check_vector(t, v, x, y, z) t.ok((v - clench.vec3(x, y, z)):norm() < 1e-6, tostring(v)) end
 
-test("a support is what an object touches, or overlaps by no more than the contact threshold", function(t)
+test("a support is touched by an object, or overlaps it by no more than the contact threshold", function(t)
   for _, gap in ipairs {5e-5, 1e-9, 0, -1e-17, -3e-5, -0.99 * threshold} do
     local hand, box, board = stand("parallel_jaw", clench.shapes.box {0.04, 0.04, 0.08}, gap)
     local before = hand.world:hash()
@@ -83,7 +83,7 @@ local function check_all(hand, object, grasps)
     local placed = grasp:apply(hand.world, {hand = hand, object = object})
     placed:quality "epsilon"
     placed.collision_free, placed.pregrasp = not hand.world:collides(hand), grasp.pregrasp
-    local options = {shake = false}  -- shaking leaves out the table anyway
+    local options = {shake = false}  -- shaking leaves out the table in any case
     for key, value in pairs(verification.defaults) do options[key] = value end
     local numbers, why = verification.check(hand, object, placed, options)
     rows[i] = {why = why, load = numbers and numbers.load_margin, perturbed = numbers and numbers.perturbed_epsilon}
@@ -114,7 +114,7 @@ test("a grasp that does not touch the table gets the same verdicts there as in f
   end
 end)
 
-test("jaws hold objects on a table, and searches do not warn of objects that stand exactly on it", function(t)
+test("jaws hold objects on a table, and searches do not warn of objects exactly on it", function(t)
   local said = {}
   clench.log.sink(function(_, text) said[#said + 1] = text end)
   local counts = {}
@@ -131,7 +131,7 @@ test("jaws hold objects on a table, and searches do not warn of objects that sta
   t.equal(said, {})
 end)
 
-test("an object that stands exactly on a table is moved and lifted", function(t)
+test("an object exactly on a table is moved and lifted", function(t)
   for _, gap in ipairs {0, -5e-5} do
     local hand, box = stand("parallel_jaw", clench.shapes.box {0.03, 0.05, 0.12}, gap, {mass = 0.1, material = "wood"})
     local X_WO = box.pose
@@ -144,7 +144,7 @@ test("an object that stands exactly on a table is moved and lifted", function(t)
   end
 end)
 
-test("a shelf above the hand is in the way of the lift", function(t)
+test("a shelf above the hand obstructs the lift", function(t)
   local hand, box = stand("parallel_jaw", clench.shapes.box {0.03, 0.05, 0.12}, 2e-5, {mass = 0.1, material = "wood"})
   local run = clench.plan.sample {hand = hand, object = box, candidates = 64, count = 3, refine = 0, verify = {shake = false}}
   local grasp = run.grasps[1]
@@ -161,7 +161,7 @@ test("a shelf above the hand is in the way of the lift", function(t)
   t.equal(why_with {clench.shapes.box {1, 1, 0.02}, {xyz = {0, 0, top + 0.05}}}, "in collision when lifted")
 end)
 
-test("a table is in the way of a hand that comes to a flat thing from the side, and only there", function(t)
+test("a table obstructs hands that approach a flat object from the side, and no others", function(t)
   local options = {mass = 0.1, material = "wood", name = "thing"}
   local plate = clench.shapes.box {0.06, 0.12, 0.012}
   local world = clench.world()

@@ -1,4 +1,4 @@
--- The test library's own claims, and what it says when a claim does not hold.
+-- The test library's own checks, and their messages if a check fails.
 local test = require "test"
 
 test("close compares numbers, vectors and lists", function(t)
@@ -23,7 +23,7 @@ test("equal compares tables by their contents", function(t)
   t.fails(function() t.equal("1", 1) end, "expected 1")
 end)
 
-test("fails wants an error with every text, and returns its message", function(t)
+test("fails expects an error with every text, and returns its message", function(t)
   t.equal(t.fails(function() error("a and b", 0) end, "a", "b"), "a and b")
   t.fails(function() t.fails(function() end) end, "expected an error, got none")
   t.fails(function() t.fails(function() error "x" end, "y") end, "expected an error with 'y'")
@@ -31,18 +31,18 @@ test("fails wants an error with every text, and returns its message", function(t
   t.fails(function() error "100%" end, "100%")
 end)
 
-test("ok wants something true", function(t)
+test("ok expects a true value", function(t)
   t.ok(1)
   t.fails(function() t.ok(nil) end, "expected true, got nil")
   t.fails(function() t.ok(false, "mine") end, "mine")
 end)
 
-test("a test without a claim or a function is refused", function(t)
+test("a test without a check or a function is rejected", function(t)
   t.fails(function() test(1, function() end) end, "expected a claim and a function")
   t.fails(function() test "alone" end, "expected a claim and a function")
 end)
 
-test("claims that would hold of anything do not", function(t)
+test("checks that would accept any value are rejected", function(t)
   t.fails(function() t:ok(false) end, "expected t.ok(...), got t:ok(...)")
   t.fails(function() t:close(1, 1, 0) end, "expected t.close(...), got t:close(...)")
   t.fails(function() t.fails(3) end, "fails: expected a function, got 3")
@@ -55,7 +55,7 @@ test("claims that would hold of anything do not", function(t)
   t.fails(function() t.close("1", 1, 1) end, "got '1' and 1")
 end)
 
-test("paths are new ones, with a text or without", function(t)
+test("paths are unique, with or without a text", function(t)
   local path = test.path(".txt", "a")
   t.ok(path:find "%.txt$")
   t.equal(clench.files.read_text(path), "a")

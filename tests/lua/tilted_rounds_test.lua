@@ -1,5 +1,4 @@
--- A capsule that leans on a floor by less than the contact threshold: its far contact moves towards the near one, and
--- the forces follow.
+-- A capsule inclined to a floor by less than the contact threshold: its far contact moves towards the near one, and the forces follow.
 local test, clench = require "test", require "clench"
 local shapes = clench.shapes
 
@@ -22,13 +21,13 @@ local function leaning(angle)
   return world, rod, contacts
 end
 
--- The part of its length whose ends touch.
+-- The part of its length between its contacts.
 local function share(angle)
   local x = slack / (length * math.sin(angle))
   return x >= 1 and 1 or math.max(0, (4 * x - 1) / 3)
 end
 
-test("forces of a capsule at rest follow from where it touches, at any tilt", function(t)
+test("forces of a capsule at rest follow from its contact points, at any tilt", function(t)
   local steps, before = 120
   for i = 0, steps do
     local angle = 1e-6 + 1.55 * slack / length * i / steps
@@ -42,7 +41,7 @@ test("forces of a capsule at rest follow from where it touches, at any tilt", fu
     t.close(high.force:norm(), weight * arm / reach, 1e-6 * weight)
     t.close(low.force:norm(), weight * (1 - arm / reach), 1e-6 * weight)
     t.ok(rod.velocity.linear:norm() < 1e-9 and rod.velocity.angular:norm() < 1e-7)
-    -- the reach changes by at most 4/3 length^2 / slack per radian, and forces by as much of the weight
+    -- the length changes by at most 4/3 length^2 / slack per radian, and forces by the same fraction of the weight
     if before then
       local change = 4 / 3 * length ^ 2 / slack * 1.55 * slack / length / steps
       t.ok(math.abs(high.force:norm() - before) <= weight * (change + 4e-4) * arm / reach ^ 2)
@@ -51,7 +50,7 @@ test("forces of a capsule at rest follow from where it touches, at any tilt", fu
   end
 end)
 
-test("a capsule that leans farther tips about its far contact, as free bodies do", function(t)
+test("a capsule with a larger inclination tips about its far contact, like free bodies", function(t)
   for i = 0, 40 do
     local angle = slack / length * (1.75 + 3 * i / 40)
     local world, rod, contacts = leaning(angle)

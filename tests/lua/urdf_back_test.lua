@@ -16,7 +16,7 @@ for _, name in ipairs {"allegro_hand/allegro_hand_right", "leap_hand/leap_hand_r
   hands[#hands + 1] = shared .. "hands-urdf/" .. name .. ".urdf"
 end
 
--- closed in free air, then on a ball before its palm
+-- closed in free air, then on a ball in front of its palm
 local function closed(path)
   local world = clench.world()
   local hand = world:add_robot(path, path:find "hands%-urdf" and {package = path:match "^(.*)/"} or nil)
@@ -26,7 +26,7 @@ local function closed(path)
     if link.mesh then out.free[link.name] = link.bounds_in_world end
   end
   hand:open()
-  -- as near to the approach point as the open hand leaves room
+  -- as near to the approach point as the open hand allows
   local ball = world:add_object(clench.shapes.sphere {0.03}, {name = "the ball", mass = 0.1})
   for way = 0.03, 0.5, 0.01 do
     ball.pose = {xyz = hand.approach.point + hand.approach.direction * way}
@@ -51,7 +51,7 @@ for number, path in ipairs(hands) do
     local before, after = closed(path), closed(there)
     t.equal(#after.hand.dofs, #before.hand.dofs)
     for i, name in ipairs(before.hand.dof_names) do
-      -- one whose leading joint turns by another ratio has other values, and is told apart
+      -- one whose leading joint has another ratio has other values, and is distinguished
       local a, b = before.hand.dof_limits[i], after.hand.dof_limits[i]
       if math.abs(a[1] - b[1]) + math.abs(a[2] - b[2]) < 1e-12 then t.equal(after.hand.dof_names[i], name) end
     end
@@ -72,7 +72,7 @@ for number, path in ipairs(hands) do
   end)
 end
 
-test("a grasp of a hand applies to the URDF that the hand was written as", function(t)
+test("a grasp of a hand applies to the URDF that was written from the hand", function(t)
   local world = clench.load "worlds/dlr_flask.wld"
   local hand, flask = world.robots[1], world.objects[1]
   hand:autograsp()

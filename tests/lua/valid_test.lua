@@ -1,4 +1,4 @@
--- One rule a quantity: what a file, an option and a field say of the same number is the same verdict.
+-- One rule per quantity: a file, an option and a field accept and reject the same numbers.
 local test, clench = require "test", require "clench"
 
 local nan = 0 / 0
@@ -11,7 +11,7 @@ Separator {
 }
 ]]
 
--- with the path of a file of that ending with the text
+-- calls a function with the path of a file with that ending and text
 local function with_file(ending, text, use)
   return use(test.path(ending, text))
 end
@@ -26,7 +26,7 @@ end
 
 local function a_box(options) return clench.world():add_object(clench.shapes.box {0.1, 0.1, 0.1}, options) end
 
--- name, allowed numbers of the list above, the one that a file's reader puts right, and how each way gives one
+-- name, accepted numbers of the list above, the one that a file's reader repairs, and how to set one by file, option and field
 local quantities = {
   {name = "mass", allowed = {1}, repaired = {-1, 0}, file = function(x) body_file("#mass %s", x) end,
    option = function(x) a_box {mass = x} end, field = function(x) a_box().mass = x end},
@@ -88,7 +88,7 @@ for _, quantity in ipairs(quantities) do
   end)
 end
 
-test("what a file says of DOFs is held against the same rules", function(t)
+test("DOFs of a file obey the same rules", function(t)
   local function arm(numbers_of)
     local n = {velocity = "1", effort = "1", d = "0", a = "0", alpha = "0", min = "0", max = "1", spring = "0"}
     for key, value in pairs(numbers_of) do n[key] = written(value) end
@@ -115,7 +115,7 @@ test("what a file says of DOFs is held against the same rules", function(t)
   end
 end)
 
-test("names of things made in a script have no control characters", function(t)
+test("names of objects made in a script have no control characters", function(t)
   local world = clench.world()
   local bad = "a\27[31mb"
   t.fails(function() world:add_object(clench.shapes.box {1, 1, 1}, {name = bad}) end,
@@ -131,7 +131,7 @@ test("names of things made in a script have no control characters", function(t)
   t.equal(body.name, "Tasse Grüße")
 end)
 
-test("names in files are repaired, and told", function(t)
+test("names in files are repaired, with a message", function(t)
   local urdf = [[<robot name="a%sb"><link name="l&#x1b;k"/></robot>]]
   local said = {}
   clench.log.sink(function(_, text) said[#said + 1] = text end)
@@ -142,7 +142,7 @@ test("names in files are repaired, and told", function(t)
   t.ok(table.concat(said, "\n"):find("name: expected no control characters, got 'a?b'; it becomes 'a?b'", 1, true))
 end)
 
-test("a mesh that is inside out is turned, and told, as one of a file is", function(t)
+test("an inside-out mesh is flipped, with a message, like that of a file", function(t)
   local said = {}
   clench.log.sink(function(_, text, about) said[#said + 1] = about .. " " .. text end)
   local ok, body = pcall(function()
@@ -155,7 +155,7 @@ test("a mesh that is inside out is turned, and told, as one of a file is", funct
   t.close(body.mesh.volume, 1 / 6, 1e-15)
 end)
 
-test("what overflows is an error, and what need not does not", function(t)
+test("overflow of a result is an error, and overflow of intermediate values is avoided", function(t)
   local v = clench.vec3
   local large = v(1e308, 1e308, 0)
   for name, fn in pairs {
@@ -179,14 +179,14 @@ test("what overflows is an error, and what need not does not", function(t)
   t.ok(x >= -1.7e308 and x < 1.7e308, tostring(x))
 end)
 
-test("poses that are chained, undone or interpolated stay within the bound of positions", function(t)
+test("composed, inverted or interpolated poses stay within the bound of positions", function(t)
   local p = clench.pose {xyz = {6e8, 0, 0}}
   t.fails(function() return p * p end, "pose: expected a position within 1e+09 m of the origin, got (1200000000, 0, 0)")
   t.fails(function() return clench.pose {xyz = {1e308, 0, 0}} end, "clench.pose: expected a position within 1e+09 m")
   t.equal(p:interpolate(p:inverse(), 0.5).position, clench.vec3(0, 0, 0))
 end)
 
-test("shapes of sizes that no mesh has are refused", function(t)
+test("shapes of impossible sizes are rejected", function(t)
   local shapes = clench.shapes
   t.fails(function() shapes.box {1e300, 1, 1} end, "shapes.box: x must be a number of at most 1e+09, got 1e+300")
   t.fails(function() shapes.torus {1e308, 1e307} end, "shapes.torus: radius must be a number of at most 1e+09")
@@ -195,7 +195,7 @@ test("shapes of sizes that no mesh has are refused", function(t)
           "shapes.scale: vertex 1 must be three numbers of at most 1e+09")
 end)
 
-test("messages of the engine have no control characters, and of long names both ends", function(t)
+test("messages of the engine have no control characters, and long names are shown by both ends", function(t)
   local world = clench.world()
   t.fails(function() world:body "a\27[2J\r" end, "no body 'a?[2J?' in this world")
   for shift = 0, 1 do

@@ -15,7 +15,7 @@ end
 
 local function same(a, b) return a.eye == b.eye and a.target == b.target end
 
--- two clicks within a frame or two of each other, as a double click is
+-- two clicks within a frame or two of each other, like a double click
 local function double_click(view, x, y)
   view.ui:input {kind = "move", x = x, y = y}
   view:frame()
@@ -53,7 +53,7 @@ test("a double click, F and View/Seek make the point under the mouse the center 
   view:close()
 end)
 
-test("bookmarks and home bring the camera back", function(t)
+test("bookmarks and home restore the camera", function(t)
   local _, view = open()
   local first = view.camera
   view:key "shift+f2"
@@ -95,7 +95,7 @@ test("the middle button pans in the original's manner and turns in Blender's, wh
   view:close()
 end)
 
-test("an orthographic camera projects and picks alike", function(t)
+test("an orthographic camera projects and picks consistently", function(t)
   local _, view = open()
   view:toggle_orthographic()
   view:frame()

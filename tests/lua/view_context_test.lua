@@ -1,4 +1,4 @@
--- Menus of right clicks, compared with the commands that their entries stand for.
+-- Menus of right clicks, compared with the commands of their entries.
 local test, clench = require "test", require "clench"
 local input = require "clench.view.input"
 
@@ -34,7 +34,7 @@ test("a right click on a body opens its menu, whose entries act on it", function
   view:close()
 end)
 
-test("a link has the entries of its hand, and cannot be removed alone", function(t)
+test("a link has the entries of its hand, and cannot be removed separately", function(t)
   local session, view = open()
   right_click(view, 560, 200)
   t.equal(input.find(view, "Remove", "menu item").enabled, false)
@@ -49,7 +49,7 @@ test("a link has the entries of its hand, and cannot be removed alone", function
   view:close()
 end)
 
-test("beside everything the menu is that of the camera; a drag with the right button opens none", function(t)
+test("a right click on the background opens the menu of the camera, and a drag with the right button opens none", function(t)
   local _, view = open()
   right_click(view, 800, 100)
   view:click_label "Orthographic"

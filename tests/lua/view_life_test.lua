@@ -1,7 +1,7 @@
--- The life of a view: the question about unsaved changes, and what is kept from one run to the next.
+-- The life of a view: the question about unsaved changes, and data kept from one run to the next.
 local test, clench = require "test", require "clench"
 
--- a small world of a file of its own
+-- a small world from a new file
 local function open()
   local path = os.tmpname() .. ".wld"
   local world = clench.load("worlds/barrett_mug.wld", {root = "."})
@@ -28,7 +28,7 @@ local function is_shown(view, label)
   return false
 end
 
-test("New asks about unsaved changes only", function(t)
+test("New asks only about unsaved changes", function(t)
   local session, view, path = open()
   local world = session.world
   move(session)
@@ -59,7 +59,7 @@ test("Save before New writes the file", function(t)
   os.remove(path)
 end)
 
-test("a file that cannot be written is named, and the world stays", function(t)
+test("a file that cannot be written is named, and the world is kept", function(t)
   local session, view, path = open()
   local world = session.world
   move(session)
@@ -78,7 +78,7 @@ test("a file that cannot be written is named, and the world stays", function(t)
   os.remove(path)
 end)
 
-test("a selection is no change, and undo leads back to an unchanged world", function(t)
+test("a selection is not a change, and undo leads back to an unchanged world", function(t)
   local session, view, path = open()
   session:run("world.select", {addresses = {session.object.name}})
   t.equal(session:is_modified(), false)
@@ -104,7 +104,7 @@ end
 
 local autosave, preferences = require "clench.view.autosave", require "clench.view.preferences"
 
-test("unsaved work is kept after five seconds of rest, and forgotten when it is saved", function(t)
+test("unsaved work is stored after five seconds without changes, and dropped when it is saved", function(t)
   local session, view, path = open()
   local folder = new_folder()
   local kept = autosave.keep(view, folder)
@@ -115,11 +115,11 @@ test("unsaved work is kept after five seconds of rest, and forgotten when it is 
   t.equal(text_at(folder .. "/autosave-1.lua"), nil)
   kept.tick(6.1)
   t.ok(text_at(folder .. "/autosave-1.lua"):find("clench.load", 1, true))
-  t.equal(#autosave.left(folder), 0)  -- its process lives
+  t.equal(#autosave.left(folder), 0)  -- its process is running
   session:save()
   kept.tick(7)
   t.equal(text_at(folder .. "/autosave-1.lua"), nil)
-  -- changes without rest are kept once a minute
+  -- during continuous changes work is stored once a minute
   for i = 10, 69 do
     move(session)
     kept.tick(i)
@@ -135,7 +135,7 @@ test("unsaved work is kept after five seconds of rest, and forgotten when it is 
   os.remove(folder)
 end)
 
-test("work that a process has left is offered and restored", function(t)
+test("work left by an ended process is offered and restored", function(t)
   local session, view, path = open()
   local folder = new_folder()
   view.kept = {autosave.keep(view, folder)}
@@ -165,7 +165,7 @@ test("work that a process has left is offered and restored", function(t)
   os.remove(folder)
 end)
 
-test("a full disk is told once in the console", function(t)
+test("a full disk is reported once in the console", function(t)
   local session, view, path = open()
   local kept = autosave.keep(view, "/dev/full")
   for _ = 1, 2 do
@@ -211,7 +211,7 @@ test("settings and recent files are kept", function(t)
   os.remove(folder)
 end)
 
-test("damaged settings are named, and the defaults hold", function(t)
+test("damaged settings are named, and the defaults apply", function(t)
   local _, view, path = open()
   local file = os.tmpname()
   clench.files.save_text(file, "{")
@@ -223,7 +223,7 @@ test("damaged settings are named, and the defaults hold", function(t)
   os.remove(path)
 end)
 
-test("dropped files are opened or imported, others refused", function(t)
+test("dropped files are opened or imported, and others are rejected", function(t)
   local session, view, path = open()
   local function drop(file)
     view.ui:input {kind = "drop", text = file}
@@ -243,7 +243,7 @@ test("dropped files are opened or imported, others refused", function(t)
   os.remove(path)
 end)
 
-test("the session's script is written whole, or not at all", function(t)
+test("the session's script is written completely, or not at all", function(t)
   local session, view, path = open()
   local file = os.tmpname()
   view:save_script(file)

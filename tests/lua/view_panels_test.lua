@@ -1,4 +1,4 @@
--- Panels of the viewer, driven by synthetic input and compared with the commands that they stand for.
+-- Panels of the viewer, driven by synthetic input and compared with the commands that they run.
 local test, clench = require "test", require "clench"
 
 local function open(world)
@@ -64,7 +64,7 @@ test("the console shows the Lua of each command, of undo, and results with names
   view:close()
 end)
 
-test("units of the inspector are the user's choice", function(t)
+test("units of the inspector can be chosen", function(t)
   local session, view = open()
   view:select "mug"
   t.ok(item(view, "^x %[m%]$"))
@@ -81,7 +81,7 @@ test("units of the inspector are the user's choice", function(t)
   view:close()
 end)
 
-test("material, collisions and transparency act on all that is selected", function(t)
+test("material, collisions and transparency act on the complete selection", function(t)
   local session, view = open()
   local link = session.hand.links[1]
   session:run("world.select", {addresses = {"mug", view:address(link)}})
@@ -101,7 +101,7 @@ test("material, collisions and transparency act on all that is selected", functi
   view:close()
 end)
 
-test("measures are chosen from all that the engine knows, and follow the hand", function(t)
+test("any measure of the engine can be chosen, and measures follow the hand", function(t)
   local session, view = open()
   view:menu "Grasp/Auto Grasp"
   view:click_label "more"
@@ -168,7 +168,7 @@ test("virtual contacts are found, marked, saved, loaded and cleared", function(t
   view:close()
 end)
 
-test("an arch is built from the menu, stands on its supports, and refuses bad radii", function(t)
+test("an arch is built from the menu, stands on its supports, and rejects bad radii", function(t)
   local session, view = open()
   view:run "world.new"
   view:menu "Misc./Arch Builder…"
@@ -214,7 +214,7 @@ test("a planner is started, its results are stepped through, and targets become 
   view:close()
 end)
 
-test("optimal forces are shown until something moves, and what yields is named", function(t)
+test("optimal forces are shown until something moves, and the yielding contact is named", function(t)
   local session, view = open()
   session:run "grasp.autograsp"
   view:click_label "Forces"

@@ -12,7 +12,7 @@ end
 
 local function shift(view, down) view.ui:input {kind = "key", code = 340, down = down} end
 
-test("clicks select a link, then its robot; Shift adds and takes away; a click beside everything selects nothing", function(t)
+test("clicks select a link, then its robot, Shift adds and removes, and a click on the background selects nothing", function(t)
   local session, view = open()
   view:tool "Select"
   local link = session.world:robot("barrett").base
@@ -37,7 +37,7 @@ test("clicks select a link, then its robot; Shift adds and takes away; a click b
   view:close()
 end)
 
-test("Delete removes bodies but no links, and undo brings them back", function(t)
+test("Delete removes bodies but no links, and undo restores them", function(t)
   local session, view = open()
   local before = session.world:hash()
   view:select "mug"
@@ -71,7 +71,7 @@ test("the switch of collisions and the material of the tool bar act on the selec
   view:close()
 end)
 
-test("the outline is the convex hull of what is seen", function(t)
+test("the outline is the convex hull of the visible part", function(t)
   local hull = outline.hull {{0, 0}, {2, 0}, {1, 1}, {2, 2}, {0, 2}, {1, 0}}
   t.equal(#hull, 4)
   t.equal(hull[1][1] + hull[1][2], 0)

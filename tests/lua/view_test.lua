@@ -1,4 +1,4 @@
--- The viewer off-screen, driven by synthetic input, compared with the commands that its menus and tools stand for.
+-- The viewer off-screen, driven by synthetic input, compared with the commands of its menus and tools.
 local test, clench = require "test", require "clench"
 
 local function open(options)
@@ -23,7 +23,7 @@ test("a screenshot without panels is the draft of the same camera", function(t)
   view:close()
 end)
 
-test("every command of the menus without dialog does what the session does", function(t)
+test("every menu command without a dialog has the effect of the session's command", function(t)
   local session, view = open()
   view:menu "Grasp/Auto Grasp"
   local other = clench.session()
@@ -79,7 +79,7 @@ test("typing does not trigger shortcuts", function(t)
   view:close()
 end)
 
-test("random input changes nothing that undo does not take back", function(t)
+test("undo reverts all changes by random input", function(t)
   local session, view = open {size = {640, 480}}
   local first = session.world:hash()
   local random = clench.random(3)
@@ -113,7 +113,7 @@ test("errors name what is missing", function(t)
   t.fails(function() clench.view.panel {} end, "expected {name = string, draw = function}")
 end)
 
-test("a page of a world needs nothing else and keeps its size", function(t)
+test("the page of a world needs nothing else and keeps its size", function(t)
   local session = open()
   session:run "grasp.autograsp"
   local path = os.tmpname() .. ".html"

@@ -1,4 +1,4 @@
--- Manipulators of the viewer, dragged by synthetic input and compared with the calls that they stand for.
+-- Manipulators of the viewer, dragged by synthetic input and compared with the equivalent calls.
 local test, clench = require "test", require "clench"
 
 local function open(select, tool, options)
@@ -30,7 +30,7 @@ local function pull(view, handle, shift)
   view:drag(handle.x, handle.y, handle.x + x1 - x0, handle.y + y1 - y0, {steps = 2})
 end
 
-test("an arrow moves along its axis alone, and stops at contact, as move_to does", function(t)
+test("an arrow moves only along its axis, and stops at contact, like move_to", function(t)
   local session, view = open("mug", "Translate")
   local mug = session.world:body "mug"
   local before, start = session.world:hash(), mug.pose.position
@@ -160,7 +160,7 @@ test("a click with the Translate tool on a link shows its joints, whose arcs set
   t.ok(robot.dofs[2] <= high, robot.dofs[2])
   t.close(robot.dofs[1], 0, 1e-12)
   t.close(robot.dofs[3], 0.5, 1e-12)
-  -- as the command does
+  -- like the command
   local other = clench.session(session.world:clone())
   other.world:robot("barrett").dofs = {0, 0.5, 0.5, 0.5}
   other:run("grasp.move_dofs", {hand = "barrett", dofs = robot.dofs})

@@ -1,4 +1,4 @@
--- Objects that are one piece with another body for a time.
+-- Objects welded to another body for a time.
 local test, clench = require "test", require "clench"
 
 local function ball(world, x, mass, options)
@@ -9,7 +9,7 @@ end
 
 local function close(t, a, b, tolerance) t.close((a - b):norm(), 0, tolerance) end
 
-test("two that are welded on the way keep momentum and turn about their common center", function(t)
+test("two objects welded in flight keep momentum and turn about their common center", function(t)
   local world = clench.world {gravity = {0, 0, 0}}
   local a, b = ball(world, 0, 1), ball(world, 0.1, 3)
   a.velocity = {linear = {0, 2, 0}}
@@ -36,7 +36,7 @@ test("two that are welded on the way keep momentum and turn about their common c
   t.ok((b.pose.position - a.pose.position):norm() > apart + 0.01)
 end)
 
-test("a dumb-bell of two welded objects falls and rests like one of one piece", function(t)
+test("a dumb-bell of two welded objects falls and rests like a single body", function(t)
   for _, engine in ipairs {"clench", "ode"} do
     local world = clench.world {dynamics = {engine = engine}}
     world:add_obstacle(clench.shapes.box {2, 2, 0.1}, {pose = {xyz = {0, 0, -0.05}}})
@@ -59,7 +59,7 @@ test("a dumb-bell of two welded objects falls and rests like one of one piece", 
   end
 end)
 
-test("what is welded to a finger moves with it, and loads it; what is welded to an obstacle goes with that", function(t)
+test("a body welded to a finger moves with it and loads it, and one welded to an obstacle moves with that", function(t)
   local world = clench.world()
   local hand = world:add_robot "models/hands/barrett/barrett.cfg"
   hand.gravity_compensation = false
@@ -90,12 +90,12 @@ test("what is welded to a finger moves with it, and loads it; what is welded to 
   t.ok(cup.velocity.linear.z < -0.9)
 end)
 
-test("welds are in snapshots, clones and fingerprints, and end with what they held", function(t)
+test("welds are in snapshots, clones and fingerprints, and end with their bodies", function(t)
   local world = clench.world {gravity = {0, 0, 0}}
   local a, b, c = ball(world, 0, 1), ball(world, 0.1, 1), ball(world, 0.2, 1)
   local hash, free = world:hash(), world:snapshot()
   c:weld(b)
-  b:weld(a)  -- c hangs on it
+  b:weld(a)  -- c is welded to it
   t.ok(world:hash() ~= hash)
   local clone = world:clone()
   a.velocity = {angular = {0, 0, 1}}
@@ -115,7 +115,7 @@ test("welds are in snapshots, clones and fingerprints, and end with what they he
   world:run(0.01)
 end)
 
-test("what cannot be welded is told", function(t)
+test("impossible welds are reported", function(t)
   local world = clench.world()
   local a, b, c = ball(world, 0, 1, {name = "a"}), ball(world, 0.1, 1, {name = "b"}), ball(world, 0.2, 1, {name = "c"})
   local wall = world:add_obstacle(clench.shapes.box {1, 1, 0.1}, {name = "wall"})
@@ -139,7 +139,7 @@ local function servo(t, force_range)
   return world, world.robots[1]
 end
 
-test("motors carry the weight of links, and not of what is welded to them", function(t)
+test("motors compensate the weight of links, and not that of bodies welded to them", function(t)
   local world, robot = servo(t, "")
   robot:set_dofs {1}
   robot:set_targets {1}
@@ -147,7 +147,7 @@ test("motors carry the weight of links, and not of what is welded to them", func
   t.close(robot.dofs[1], 1, 1e-9)
   local load = world:add_object(clench.shapes.box {0.05, 0.05, 0.05}, {mass = 2, pose = clench.pose {axis = {0, 1, 0}, angle = 1, xyz = {-0.5 * math.sin(1), 0, 1 - 0.5 * math.cos(1)}}})
   load:weld(robot.links[1])
-  -- it swings at 8 rad/s, damped by a fifth of the critical; it falls asleep before the last 4e-6 N m are in balance
+  -- it swings at 8 rad/s with a fifth of the critical damping; it falls asleep before the last 4e-6 N m are in balance
   world:run(15)
   local q = robot.dofs[1]
   t.ok(q < 0.9)
@@ -160,7 +160,7 @@ test("motors carry the weight of links, and not of what is welded to them", func
   t.close(40 * (1 - q), (2 * 0.5 + 1.5 * 0.25) * 9.81 * math.sin(q), 1e-5)
 end)
 
-test("a motor too weak for what is welded to its link lets it sink", function(t)
+test("a motor too weak for a body welded to its link lets it sink", function(t)
   local world, robot = servo(t, 'forcerange="-1 1"')
   robot:set_dofs {1}
   robot:set_targets {1}
@@ -169,7 +169,7 @@ test("a motor too weak for what is welded to its link lets it sink", function(t)
   t.ok(robot.dofs[1] < 0.5)
 end)
 
-test("what is welded to a body has its velocity at once", function(t)
+test("a welded body gets the velocity of its partner at once", function(t)
   local world = clench.world {gravity = {0, 0, 0}}
   local a, b, c = ball(world, 0.2, 1), ball(world, 0.1, 1), ball(world, 0, 1)
   a:weld(b)

@@ -11,14 +11,14 @@ local function pinch(options)
   return options
 end
 
-test("a soft pinch holds, a hard one turns", function(t)
+test("a soft pinch resists torsion, and a hard one does not", function(t)
   t.ok(not clench.wrench_space(pinch()):is_force_closure())
   for _, edges in ipairs {3, 8, 20, "exact"} do
     t.ok(clench.wrench_space(pinch {torsion_radius = 0.002, edges = edges}):is_force_closure())
   end
 end)
 
-test("brackets hold epsilon, and say whether they reach", function(t)
+test("brackets contain epsilon, and tell whether at_least is reached", function(t)
   local exact = pinch {torsion_radius = 0.005, edges = "exact", norm = "Linf"}
   local epsilon = clench.wrench_space(exact):epsilon()
   local wide = clench.wrench_space(exact):epsilon_bounds {tolerance = 0.01}
@@ -28,7 +28,7 @@ test("brackets hold epsilon, and say whether they reach", function(t)
   t.equal(clench.wrench_space(exact):epsilon_bounds {at_least = epsilon * 2}.reached, false)
 end)
 
-test("a space tells its norm and coordinates, a projection what became of them", function(t)
+test("a space has its norm and coordinates, and a projection the treatment of each coordinate", function(t)
   local space = clench.wrench_space(pinch {norm = "Linf", coordinates = {"fx", "fy", "fz", "tx"}})
   t.equal(tostring(space), "Linf wrench space of 2 contacts, rank 3, epsilon 0")
   t.equal(space.norm, "Linf")
@@ -41,7 +41,7 @@ test("a space tells its norm and coordinates, a projection what became of them",
   t.equal(space:project {fixed = {fz = 0}}.fixed.fz, 0)
 end)
 
-test("what makes no sense is refused by name", function(t)
+test("invalid arguments are rejected by name", function(t)
   local function fails(options, text)
     t.fails(function() clench.wrench_space(pinch(options)) end, text)
   end
@@ -76,12 +76,12 @@ test("a grasp keeps its spaces, one for each set of options", function(t)
   t.equal(clench.grasp(hand, flask, {edges = "exact"}).edges, "exact")
   t.fails(function() clench.grasp(hand, flask, {rho = "radius"}) end, "rho must be a number or 'gyration', got 'radius'")
   t.fails(function() grasp:wrench_space {rho = -1} end, "rho")
-  -- some way to each of the first contacts
+  -- the contacts of the weakest direction exist
   local worst = grasp:wrench_space():weakest()
   for _, i in ipairs(worst.contacts) do t.ok(grasp.contacts[i]) end
 end)
 
-test("contacts that are wrong are told by their number", function(t)
+test("faulty contacts are reported by their number", function(t)
   local good = {point = {1, 0, 0}, normal = {-1, 0, 0}, mu = 0.5}
   local function refused(given, sentence) t.fails(function() clench.wrench_space(given) end, sentence) end
   refused({contacts = {good, {point = {0, 1, 0}, normal = {0, -1, 0}, mu = -1}}}, "contacts[2]: contact cone: mu: expected a number from 0 to 1e+06, got -1")
@@ -91,7 +91,7 @@ test("contacts that are wrong are told by their number", function(t)
   refused({contacts = {good}, coordinates = {1, k = 2}}, "coordinates: expected a list of coordinates")
 end)
 
-test("rings of alike round cones end in time, and their brackets hold", function(t)
+test("rings of equal round cones end in time, and their brackets are valid", function(t)
   local function ring(count, mu, edges)
     local contacts = {}
     for i = 1, count do
@@ -104,7 +104,7 @@ test("rings of alike round cones end in time, and their brackets hold", function
     local space = ring(case[1], case[2], "exact")
     local bounds = space:epsilon_bounds {}
     t.ok(bounds.lower > 0 and bounds.lower <= bounds.upper)
-    -- a pyramid of 64 edges lies within, and reaches the more than cos(pi / 64) of what the cone does
+    -- a pyramid of 64 edges is inside the cone, and has more than cos(pi / 64) of its extent
     local inner = ring(case[1], case[2], 64):epsilon()
     t.ok(bounds.upper >= inner * (1 - 1e-9))
     local epsilon = space:epsilon()
@@ -114,10 +114,10 @@ test("rings of alike round cones end in time, and their brackets hold", function
   end
 end)
 
-test("the weakest direction is a load on the object, which the contacts answer with its opposite", function(t)
+test("the weakest direction is a load on the object, which the contacts balance with the opposite wrench", function(t)
   local world = clench.load "worlds/dlr_flask.wld"
   local hand, flask = world.robots[1], world.objects[1]
-  -- the object's axes, for any pose of the object
+  -- along the object's axes, for any pose of the object
   flask.pose = clench.pose {xyz = {0.1, 0.2, 0.3}, rpy = {0.4, 0.5, 0.6}} * flask.pose
   hand.pose = clench.pose {xyz = {0.1, 0.2, 0.3}, rpy = {0.4, 0.5, 0.6}} * hand.pose
   hand:autograsp()

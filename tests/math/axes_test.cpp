@@ -8,7 +8,8 @@ using namespace clench::test;
 using Eigen::Vector3d;
 
 TEST_CASE(
-    "the first axis is exact, the other lies in the plane of both, and the frame is right-handed") {
+    "the first axis is exact, the second lies in the plane of both arguments, and the frame is "
+    "right-handed") {
   Random random(6, 0);
   for (int trial = 0; trial < 60; ++trial)
     for (int i = 0; i < 3; ++i)
@@ -25,7 +26,7 @@ TEST_CASE(
       }
 }
 
-TEST_CASE("axes that are zero, parallel or no numbers give no rotation") {
+TEST_CASE("axes that are zero, parallel or not finite give no rotation") {
   const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), none = Vector3d::Zero();
   CHECK_FALSE(rotation_from_axes(0, none, 1, y));
   CHECK_FALSE(rotation_from_axes(0, x, 1, none));

@@ -27,7 +27,7 @@ struct BlockMatrix {
     }
     for (int k = 0; k < 2 * groups; ++k)
       if (const int i = below(groups), j = below(groups); i != j) pairs.emplace_back(i, j);
-    // the symmetric part must be positive definite, as pivots are chosen within blocks only
+    // the symmetric part must be positive definite, because pivots are chosen within blocks only
     dense = MatrixXd::Zero(first.back(), first.back());
     for (const auto& [i, j] : pairs) {
       fill(random, i, j), fill(random, j, i);
@@ -55,7 +55,7 @@ struct BlockMatrix {
 
 }  // namespace
 
-TEST_CASE("block LU solves what dense LU solves") {
+TEST_CASE("block LU gives the solutions of dense LU") {
   for (int number = 0; number < 60; ++number) {
     Random random(41, number);
     const BlockMatrix matrix(random, 1 + number % 30, number % 2 == 0);
@@ -71,7 +71,7 @@ TEST_CASE("block LU solves what dense LU solves") {
   }
 }
 
-TEST_CASE("a block that is singular is reported") {
+TEST_CASE("a singular block is reported") {
   BlockLu lu;
   lu.analyze({2, 3}, {{0, 1}});
   lu.set_zero();

@@ -18,12 +18,12 @@ static VectorXd inside_cones(Random& random) {
   return v + (0.01 - std::min(0.0, cone_margin(three_cones, v))) * cone_unit(three_cones);
 }
 
-TEST_CASE("Nesterov and Todd's scaling takes s and z to one point, and its inverse back") {
+TEST_CASE("Nesterov-Todd scaling maps s and z to one point, and its inverse maps it back") {
   Random random(1);
   for (int i = 0; i < 100; ++i) {
     const VectorXd s = inside_cones(random), z = inside_cones(random), v = any_vector(random);
     const NesterovTodd scaling(three_cones, s, z);
-    // the cones' margins are 0.01 and more: conditions of 1e4
+    // the margins from the cones are 0.01 and more: condition numbers of 1e4
     CHECK((scaling.apply(z) - scaling.lambda()).norm() < 1e-11);
     CHECK((scaling.apply_inverse(s) - scaling.lambda()).norm() < 1e-9);
     CHECK((scaling.apply_inverse(scaling.apply(v)) - v).norm() < 1e-9);
@@ -33,7 +33,7 @@ TEST_CASE("Nesterov and Todd's scaling takes s and z to one point, and its inver
   }
 }
 
-TEST_CASE("what is multiplied in the cones' algebra is divided again") {
+TEST_CASE("division in the cones' algebra inverts the product") {
   Random random(2);
   for (int i = 0; i < 100; ++i) {
     const VectorXd a = inside_cones(random), b = any_vector(random);
@@ -61,7 +61,7 @@ TEST_CASE("the longest step ends on the boundary") {
   CHECK(ends > 200);
 }
 
-TEST_CASE("a step through a cone's tip ends there") {
+TEST_CASE("a step through the tip of a cone ends there") {
   VectorXd v(3), dv(3);
   v << 1, 0, 0;
   dv << -1.2, 0, 0;
@@ -70,7 +70,7 @@ TEST_CASE("a step through a cone's tip ends there") {
   CHECK(longest_step({3}, v, -v / 3) == doctest::Approx(3));
 }
 
-TEST_CASE("margins are those of the worst cone") {
+TEST_CASE("the margin is the smallest margin of all cones") {
   VectorXd v(4);
   v << 2, 5, 3, 4;
   CHECK(cone_margin({1, 3}, v) == 0);

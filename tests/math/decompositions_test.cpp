@@ -15,7 +15,7 @@ static MatrixXd random_matrix(Random& random, int rows, int columns) {
 // sums of some ten products of numbers of order 1
 static constexpr double rounding = 1e-13;
 
-TEST_CASE("the least turn brings one direction to the other, about an axis normal to both") {
+TEST_CASE("the shortest rotation maps one direction to the other, about an axis normal to both") {
   Random random(1);
   for (int i = 0; i < 1000; ++i) {
     const Vector3d from = random_matrix(random, 3, 1), to = random_matrix(random, 3, 1);
@@ -27,7 +27,7 @@ TEST_CASE("the least turn brings one direction to the other, about an axis norma
   }
 }
 
-TEST_CASE("the least turn holds for equal, opposite and nearly opposite directions") {
+TEST_CASE("the shortest rotation is correct for equal, opposite and nearly opposite directions") {
   Random random(2);
   for (int i = 0; i < 200; ++i) {
     const Vector3d from = random_matrix(random, 3, 1);
@@ -35,14 +35,15 @@ TEST_CASE("the least turn holds for equal, opposite and nearly opposite directio
     CHECK((shortest_rotation(from, -from) * from + from).norm() < rounding);
     for (const double off : {1e-3, 1e-5, 1e-7, 1e-9}) {
       const Vector3d to = -from.normalized() + off * random_matrix(random, 3, 1);
-      // what is lost of a sum of opposite directions: rounding over their distance of 1e-8 at least
+      // cancellation in the sum of opposite directions: rounding divided by their distance of at
+      // least 1e-8
       CHECK((shortest_rotation(from, to) * from.normalized() - to.normalized()).norm() < 1e-7);
       CHECK(std::abs(shortest_rotation(from, to).norm() - 1) < 1e-7);
     }
   }
 }
 
-TEST_CASE("decompositions multiply to what they were made of") {
+TEST_CASE("the product of the factors of a decomposition is the original matrix") {
   Random random(3);
   for (int i = 0; i < 50; ++i) {
     const int rows = 1 + i % 7, columns = 1 + i / 7 % 7;
@@ -64,7 +65,7 @@ TEST_CASE("decompositions multiply to what they were made of") {
   }
 }
 
-TEST_CASE("eigenvalues of small matrices and solutions agree with the definitions") {
+TEST_CASE("eigenvalues of small matrices and solutions satisfy their definitions") {
   Random random(4);
   for (int i = 0; i < 50; ++i) {
     const Matrix3d a = random_matrix(random, 3, 3), even = a * a.transpose();
@@ -78,7 +79,7 @@ TEST_CASE("eigenvalues of small matrices and solutions agree with the definition
   }
 }
 
-TEST_CASE("rows that depend on others are told with their weights") {
+TEST_CASE("dependent rows are reported with their weights") {
   Random random(5);
   for (int i = 0; i < 30; ++i) {
     const int rank = 1 + i % 4, count = rank + i % 3;
@@ -91,7 +92,7 @@ TEST_CASE("rows that depend on others are told with their weights") {
       Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(6);
       for (int r = 0; r < rank; ++r)
         sum += rows.weights(static_cast<int>(k), r) * m.row(rows.rows[r]);
-      CHECK((sum - m.row(rows.others[k])).norm() < 1e-10);  // of conditions up to 1e3
+      CHECK((sum - m.row(rows.others[k])).norm() < 1e-10);  // for condition numbers up to 1e3
     }
   }
   CHECK(independent_rows(MatrixXd::Zero(3, 2), 1e-10).rows.empty());
@@ -99,12 +100,12 @@ TEST_CASE("rows that depend on others are told with their weights") {
   CHECK(independent_rows(MatrixXd::Zero(0, 4), 1e-10).others.empty());
 }
 
-TEST_CASE("sparse and dense factors solve what they were made of") {
+TEST_CASE("sparse and dense factorizations solve systems of their matrix") {
   Random random(6);
-  DenseLu lu;  // each factors one matrix after another, of other sizes
+  DenseLu lu;  // each factorizes one matrix after another, of different sizes
   DenseCholesky cholesky;
   for (int i = 0; i < 30; ++i) {
-    // positive definite, negative definite, and what lies between them
+    // positive definite, negative definite, and indefinite
     const int n = 3 + i % 5, k = 1 + i % 3;
     MatrixXd m = MatrixXd::Zero(n + k, n + k);
     const MatrixXd half = random_matrix(random, n, n);
@@ -117,7 +118,7 @@ TEST_CASE("sparse and dense factors solve what they were made of") {
     const SparseLdl::Matrix lower = sparse.triangularView<Eigen::Lower>();
     SparseLdl ldl(lower);
     REQUIRE(ldl.factor(lower));
-    CHECK((m * ldl.solve(right) - right).norm() < 1e-11);  // of conditions up to 100
+    CHECK((m * ldl.solve(right) - right).norm() < 1e-11);  // for condition numbers up to 100
     lu.factor(m);
     CHECK((m * lu.solve(right) - right).norm() < 1e-11);
     CHECK_FALSE(cholesky.factor(m));

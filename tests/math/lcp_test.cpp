@@ -40,7 +40,7 @@ std::vector<VectorXd> enumerate(const MatrixXd& M, const VectorXd& q) {
 
 }  // namespace
 
-TEST_CASE("a positive definite matrix gives the one solution that enumeration finds") {
+TEST_CASE("a positive definite matrix gives the unique solution, which enumeration finds as well") {
   Random random(1);
   for (int i = 0; i < test::cases(400); ++i) {
     const int n = 1 + i % 7;
@@ -58,8 +58,8 @@ TEST_CASE("a positive definite matrix gives the one solution that enumeration fi
 }
 
 TEST_CASE(
-    "any matrix at all: what is found is a solution, and of semidefinite ones a ray proves that "
-    "there is none") {
+    "for any matrix, results are solutions, and for semidefinite ones a ray proves that there is "
+    "no solution") {
   Random random(2);
   int solved = 0, rays = 0, empty = 0;
   for (int i = 0; i < test::cases(400); ++i) {
@@ -90,7 +90,7 @@ TEST_CASE(
 }
 
 TEST_CASE("ties do not make the pivots cycle") {
-  // rows that are there several times, and many equal numbers
+  // rows that occur several times, and many equal numbers
   Random random(3);
   for (int i = 0; i < test::cases(200); ++i) {
     const int n = 12;
@@ -105,7 +105,7 @@ TEST_CASE("ties do not make the pivots cycle") {
   }
 }
 
-TEST_CASE("no unknowns, nothing to do, too few pivots") {
+TEST_CASE("problems without unknowns, with a trivial solution, and with too few pivots") {
   CHECK(solve_lcp(MatrixXd(0, 0), VectorXd(0)).status == LcpStatus::solved);
   const LcpSolution idle = solve_lcp(MatrixXd::Identity(2, 2), VectorXd::Ones(2));
   CHECK(idle.status == LcpStatus::solved);

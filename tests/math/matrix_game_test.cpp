@@ -12,7 +12,7 @@ using namespace clench;
 
 namespace {
 
-// what is left to the column player's mixture: a lower bound of the value
+// payoff guaranteed to the column player's mixture: a lower bound of the value
 double against(const std::vector<GameRow>& rows, const GameSolution& s, int columns) {
   double least = std::numeric_limits<double>::infinity();
   for (const GameRow& row : rows) {
@@ -25,7 +25,7 @@ double against(const std::vector<GameRow>& rows, const GameSolution& s, int colu
 
 }  // namespace
 
-TEST_CASE("matching pennies is fair, a saddle point is played purely") {
+TEST_CASE("matching pennies is fair, and a saddle point has pure strategies") {
   const std::vector<GameRow> pennies = {{1, -1}, {-1, 1}};
   const GameSolution fair = solve_game(pennies, 2);
   CHECK(fair.value == doctest::Approx(0));
@@ -42,7 +42,7 @@ TEST_CASE("random games: both players' mixtures guarantee the same value") {
   Random random(1);
   for (int i = 0; i < 500; ++i) {
     const int columns = 1 + i % max_game_columns;
-    // degenerate ones among them: equal rows, rows of few values, of any scale and sign
+    // with degenerate ones: equal rows, rows of few values, of any scale and sign
     const double scale = i % 3 == 0 ? 1e-9 : 1e3;
     std::vector<GameRow> rows(1 + random.bits() % max_game_rows);
     for (GameRow& row : rows)

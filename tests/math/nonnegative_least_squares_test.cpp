@@ -12,7 +12,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-// the least residual over all subsets of columns whose plain least squares are not negative
+// the least residual over all subsets of columns whose unconstrained solution is not negative
 double min_residual_by_enumeration(const MatrixXd& a, const VectorXd& b) {
   double best = b.norm();
   for (int set = 1; set < 1 << a.cols(); ++set) {
@@ -31,27 +31,27 @@ double min_residual_by_enumeration(const MatrixXd& a, const VectorXd& b) {
 
 }  // namespace
 
-TEST_CASE("the nearest point of a cone is that of the best set of its columns") {
+TEST_CASE("the nearest point of a cone is that of the best subset of its columns") {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> number(-1, 1);
   for (int run = 0; run < 300; ++run) {
     const int rows = 1 + run % 5, columns = 1 + run % 9;
     MatrixXd a = MatrixXd::NullaryExpr(rows, columns, [&] { return number(random); });
     const VectorXd b = VectorXd::NullaryExpr(rows, [&] { return number(random); });
-    // columns that repeat others, and ones that are none
+    // repeated columns, and columns of zeros
     if (columns > 3 && run % 3 == 0) a.col(1) = 2 * a.col(0), a.col(2).setZero();
     const VectorXd x = nonnegative_least_squares(a, b);
     CHECK(x.minCoeff() >= 0);
     const VectorXd rest = b - a * x;
     CHECK(rest.norm() == doctest::Approx(min_residual_by_enumeration(a, b)).epsilon(1e-9));
-    // optimal: nothing more is gained along any column, and nothing along those in use
+    // optimality: no column improves the fit, and the used columns are stationary
     const VectorXd slope = a.transpose() * rest;
     CHECK(slope.maxCoeff() < 1e-10);
     CHECK(std::abs(slope.dot(x)) < 1e-10);
   }
 }
 
-TEST_CASE("a point of the cone is its own nearest, at any size") {
+TEST_CASE("a point of the cone is its own nearest point, at any scale") {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> number(-1, 1);
   for (const double scale : {1e-9, 1.0, 1e9}) {
@@ -61,7 +61,7 @@ TEST_CASE("a point of the cone is its own nearest, at any size") {
   }
 }
 
-TEST_CASE("columns that are alike but for rounding do no harm") {
+TEST_CASE("columns that differ only by rounding are handled") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> number(-1, 1);
   for (int run = 0; run < 200; ++run) {

@@ -13,10 +13,10 @@ static Pose random_pose(Random& random) {
           {random.normal(), random.normal(), random.normal()}};
 }
 
-// products of unit quaternions round in the last bits only
+// products of unit quaternions are rounded in the last bits only
 static constexpr double pose_rounding = 1e-14;
 
-TEST_CASE("poses compose as their matrices do") {
+TEST_CASE("poses compose like their matrices") {
   Random random(1);
   for (int i = 0; i < 100; ++i) {
     const Pose X_AB = random_pose(random), X_BC = random_pose(random);
@@ -26,7 +26,7 @@ TEST_CASE("poses compose as their matrices do") {
   }
 }
 
-TEST_CASE("a pose times its inverse is nothing") {
+TEST_CASE("a pose times its inverse is the identity") {
   Random random(2);
   for (int i = 0; i < 100; ++i) {
     const Pose X = random_pose(random), nothing = X * X.inverse();
@@ -35,7 +35,7 @@ TEST_CASE("a pose times its inverse is nothing") {
   }
 }
 
-TEST_CASE("the angle is that of the turn, small ones too") {
+TEST_CASE("the angle is that of the rotation, including small ones") {
   for (const double angle : {1e-12, 1e-3, 1.0, 3.0, std::numbers::pi}) {
     const Pose X = Pose::turn(angle, Eigen::Vector3d(1, 2, 3).normalized());
     CHECK(X.angle() == doctest::Approx(angle).epsilon(1e-12));
@@ -44,25 +44,25 @@ TEST_CASE("the angle is that of the turn, small ones too") {
         doctest::Approx(2 * std::numbers::pi - 4));
 }
 
-TEST_CASE("interpolation starts and ends where it says and turns evenly") {
+TEST_CASE("interpolation starts and ends at the given poses and rotates uniformly") {
   Random random(3);
   const Pose a = random_pose(random), b = random_pose(random);
   CHECK((interpolate(a, b, 0).position - a.position).norm() == 0);
-  CHECK((a.inverse() * interpolate(a, b, 0)).angle() < 1e-7);  // acos near 1 halves the digits
+  CHECK((a.inverse() * interpolate(a, b, 0)).angle() < 1e-7);  // acos near 1 loses half the digits
   CHECK((b.inverse() * interpolate(a, b, 1)).angle() < 1e-7);
   const double whole = (a.inverse() * b).angle(),
                half = (a.inverse() * interpolate(a, b, 0.5)).angle();
   CHECK(half == doctest::Approx(whole / 2));
 }
 
-TEST_CASE("a pose with a number that is not finite is found out") {
+TEST_CASE("a pose with a number that is not finite is detected") {
   Pose X;
   CHECK(X.is_finite());
   X.position.y() = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(X.is_finite());
 }
 
-TEST_CASE("the hash of a pose changes with every number") {
+TEST_CASE("the hash of a pose depends on every number") {
   const auto hash = [](const Pose& X) {
     Hasher h;
     add(h, X);
@@ -79,7 +79,7 @@ TEST_CASE("the hash of a pose changes with every number") {
 }
 
 TEST_CASE(
-    "roll, pitch and yaw give back the rotation, at and near a pitch of a quarter turn, too") {
+    "roll, pitch and yaw reproduce the rotation, also at and near a pitch of a quarter turn") {
   Random random(8);
   const double pi = 3.14159265358979323846;
   const auto turned = [](const Eigen::Vector3d& rpy) {
@@ -91,7 +91,7 @@ TEST_CASE(
     const double lean = std::pow(10, random.uniform(-16, 0)), side = i % 2 ? 1 : -1;
     const double pitch = i % 3 ? side * (pi / 2 - lean) : random.uniform(-pi / 2, pi / 2);
     const Eigen::Matrix3d R = turned({random.uniform(-pi, pi), pitch, random.uniform(-pi, pi)});
-    CHECK((turned(rpy_of(R)) - R).norm() < 4e-12);  // of the cosine that counts as 0, and rounding
+    CHECK((turned(rpy_of(R)) - R).norm() < 4e-12);  // the cosine that is treated as 0, and rounding
   }
   CHECK(rpy_of(turned({0, pi / 2, 0.3})).isApprox(Eigen::Vector3d(0, pi / 2, 0.3), 1e-12));
 }

@@ -10,8 +10,7 @@
 using namespace clench;
 using Eigen::MatrixXd, Eigen::VectorXd;
 
-// what the header promises of an optimum; the checks below measure with norms of their own, hence
-// the factor
+// accuracy guaranteed by the header; the checks below use other norms, hence the factor
 static constexpr double promised = 1e-9, close_to_it = 1e-8;
 
 static MatrixXd normal_matrix(Random& random, int rows, int columns) {
@@ -32,15 +31,14 @@ static VectorXd times(const MatrixXd& m, const VectorXd& v, Eigen::Index rows) {
   return m.size() == 0 ? VectorXd(VectorXd::Zero(rows)) : VectorXd(m * v);
 }
 
-// the equations of an optimum, with sums in plain order and each residual over the largest of its
-// terms
+// the optimality conditions, with plain sums and each residual relative to the largest of its terms
 static void check_optimum(const ConeProgram& p, const ConeSolution& r) {
   REQUIRE(r.status == ConeStatus::optimal);
   const auto n = p.c.size();
   const VectorXd Px = times(p.P, r.x, n), Ax = times(p.A, r.x, p.b.size()),
                  Gx = times(p.G, r.x, p.h.size());
   const VectorXd Aty = times(p.A.transpose(), r.y, n), Gtz = times(p.G.transpose(), r.z, n);
-  // data that are all 0 have no size: then numbers are held against 1
+  // if all data are 0, numbers are compared with 1
   const auto size_or_one = [](double x) { return x > 0 ? x : 1; };
   const double given = size_or_one(std::max(biggest(p.b), biggest(p.h)));
   const double primal = std::max({given, biggest(Ax), biggest(r.s)});
@@ -61,7 +59,7 @@ static void check_infeasible(const ConeProgram& p, const ConeSolution& r) {
   CHECK(std::abs(p.b.dot(r.y) + p.h.dot(r.z) + 1) < 1e-9);
   const auto n = p.c.size();
   const VectorXd sum = times(p.A.transpose(), r.y, n) + times(p.G.transpose(), r.z, n);
-  // against the largest numbers that add up to it
+  // relative to the largest numbers in the sum
   const double term = std::max(p.A.size() > 0 ? p.A.cwiseAbs().maxCoeff() * biggest(r.y) : 0,
                                p.G.size() > 0 ? p.G.cwiseAbs().maxCoeff() * biggest(r.z) : 0);
   CHECK(biggest(sum) <= close_to_it * term);
@@ -134,7 +132,7 @@ static Made made_program(Random& random, bool curved) {
   return m;
 }
 
-TEST_CASE("programs made from their solution have it again") {
+TEST_CASE("programs made from their solution have that solution") {
   Random random(11);
   for (int i = 0; i < 400; ++i) {
     CAPTURE(i);
@@ -147,7 +145,7 @@ TEST_CASE("programs made from their solution have it again") {
   }
 }
 
-TEST_CASE("neither units nor powers of ten of rows and columns change what is found") {
+TEST_CASE("neither units nor powers of ten of rows and columns change the solution") {
   Random random(12);
   for (int i = 0; i < 200; ++i) {
     CAPTURE(i);
@@ -181,7 +179,7 @@ TEST_CASE("neither units nor powers of ten of rows and columns change what is fo
   }
 }
 
-TEST_CASE("powers of two as units change no bit") {
+TEST_CASE("powers of two as units give bit-identical results") {
   Random random(13);
   for (int i = 0; i < 50; ++i) {
     const Made made = made_program(random, i % 2 == 0);
@@ -195,14 +193,14 @@ TEST_CASE("powers of two as units change no bit") {
   }
 }
 
-TEST_CASE("what has no solution is proved to have none") {
+TEST_CASE("infeasible programs are proved to be infeasible") {
   Random random(14);
   for (int i = 0; i < 200; ++i) {
     CAPTURE(i);
-    // h below what any x gives: z in the cones with G^T z + A^T y = 0 and h.z + b.y < 0
+    // h below all values of G x: z in the cones with G^T z + A^T y = 0 and h.z + b.y < 0
     Made made = made_program(random, i % 2 == 0);
     ConeProgram& p = made.program;
-    // of a single row only rounding would be left
+    // in a single row only rounding errors would remain
     if (p.h.size() < 2) continue;
     VectorXd z =
         cone_unit(all_cones(p)) + 0.2 * normal_matrix(random, static_cast<int>(p.h.size()), 1) /
@@ -223,13 +221,13 @@ TEST_CASE("what has no solution is proved to have none") {
   }
 }
 
-TEST_CASE("what falls without end is told, with its direction") {
+TEST_CASE("unbounded programs are reported, with a direction") {
   Random random(15);
   for (int i = 0; i < 100; ++i) {
     CAPTURE(i);
     Made made = made_program(random, false);
     ConeProgram& p = made.program;
-    // a column that leads into all cones, and is good for the objective
+    // a column that leads into all cones, and improves the objective
     const VectorXd unit = cone_unit(all_cones(p));
     if (p.G.size() > 0) p.G.col(0) = -unit;
     if (p.A.size() > 0) p.A.col(0).setZero();
@@ -238,7 +236,7 @@ TEST_CASE("what falls without end is told, with its direction") {
   }
 }
 
-// the same by the simplex method; all rows of G are half lines
+// the same by the simplex method; all cones of G are half lines
 static ClpSimplex by_simplex(const ConeProgram& p) {
   const int n = static_cast<int>(p.c.size());
   const int equal = static_cast<int>(p.b.size()), rows = static_cast<int>(p.h.size());
@@ -263,7 +261,7 @@ static ClpSimplex by_simplex(const ConeProgram& p) {
 }
 
 TEST_CASE(
-    "linear programs agree with the simplex method, those without solution or bound among them") {
+    "linear programs agree with the simplex method, including infeasible and unbounded ones") {
   Random random(16);
   int found[3] = {};
   for (int i = 0; i < 300; ++i) {
@@ -281,7 +279,7 @@ TEST_CASE(
     if (clp.isProvenOptimal()) {
       ++found[0];
       check_optimum(p, r);
-      // Clp's tolerance, over the rows it adds up
+      // Clp's tolerance, summed over the rows
       CHECK(std::abs(r.objective - clp.objectiveValue()) <
             1e-7 * std::max(1.0, std::abs(clp.objectiveValue())));
     } else if (clp.isProvenPrimalInfeasible()) {
@@ -318,13 +316,13 @@ TEST_CASE("the nearest point of a cone is that of its closed formula") {
     }
     const ConeSolution r = solve(p);
     check_optimum(p, r);
-    // an error e of a strictly convex objective leaves sqrt(e) in its place
+    // an error e of a strictly convex objective is an error sqrt(e) of the position
     CHECK(biggest(r.x - expected) < 1e-4);
     CHECK(std::abs((r.x - at).norm() - (expected - at).norm()) < 1e-8);
   }
 }
 
-TEST_CASE("doubled, empty and contradicting equations are sorted out") {
+TEST_CASE("duplicate, empty and contradictory equations are handled") {
   Random random(18);
   for (int i = 0; i < 60; ++i) {
     CAPTURE(i);
@@ -332,7 +330,7 @@ TEST_CASE("doubled, empty and contradicting equations are sorted out") {
     ConeProgram p = made.program;
     const int equal = static_cast<int>(p.b.size());
     if (equal == 0) continue;
-    // each of the rows twice in other units, sums of them, and one without numbers
+    // each of the rows twice in different units, sums of them, and one of zeros
     MatrixXd mix = MatrixXd::Zero(2 * equal + 2, equal);
     mix.topRows(equal).setIdentity();
     mix.middleRows(equal, equal) = 3.7e5 * MatrixXd::Identity(equal, equal);
@@ -343,17 +341,17 @@ TEST_CASE("doubled, empty and contradicting equations are sorted out") {
     check_optimum(p, r);
     CHECK(std::abs(r.objective - made.objective) <
           1e-7 * std::max({1.0, std::abs(made.objective), biggest(made.program.c)}));
-    // one that says otherwise
+    // one contradictory row
     p.b[i % (2 * equal + 2)] += 1 + std::abs(p.b[i % (2 * equal + 2)]);
     check_infeasible(p, solve(p));
   }
 }
 
-TEST_CASE("programs with nothing in them have an answer") {
+TEST_CASE("trivial programs have an answer") {
   ConeProgram nothing;
   CHECK(solve(nothing).status == ConeStatus::optimal);
 
-  ConeProgram idle;  // an unknown that nothing asks for
+  ConeProgram idle;  // an unknown without constraints or cost
   idle.c = VectorXd::Zero(2);
   CHECK(solve(idle).status == ConeStatus::optimal);
   idle.c[1] = 1;
@@ -366,7 +364,7 @@ TEST_CASE("programs with nothing in them have an answer") {
   no_unknowns.b[0] = 0;
   CHECK(solve(no_unknowns).status == ConeStatus::optimal);
 
-  ConeProgram apex;  // a cone of which only the tip is left
+  ConeProgram apex;  // a cone of which only the tip is feasible
   apex.c = VectorXd::Ones(3);
   apex.G = -MatrixXd::Identity(3, 3);
   apex.h = VectorXd::Zero(3);
@@ -377,7 +375,7 @@ TEST_CASE("programs with nothing in them have an answer") {
   const ConeSolution tip = solve(apex);
   CHECK((tip.status == ConeStatus::optimal || tip.status == ConeStatus::inaccurate));
   CHECK(biggest(tip.x) <
-        1e-4);  // no interior: the cone's own curvature leaves the root of the residual
+        1e-4);  // no interior: the curvature of the cone leaves the root of the residual
 }
 
 TEST_CASE("any program gets an answer in finite numbers") {
@@ -385,7 +383,7 @@ TEST_CASE("any program gets an answer in finite numbers") {
   int counts[4] = {};
   for (int i = 0; i < 600; ++i) {
     CAPTURE(i);
-    // what is small is rounded to 0 or to ties: rows and columns vanish, repeat and oppose each
+    // small numbers are rounded to 0 or to ties: rows and columns vanish, repeat and oppose each
     // other
     ConeProgram p = made_program(random, i % 2 == 0).program;
     const double coarse = i % 3 == 0 ? 1 : i % 3 == 1 ? 2 : 0.5;
@@ -408,10 +406,10 @@ TEST_CASE("any program gets an answer in finite numbers") {
   CHECK(counts[0] > 100);
   CHECK(counts[1] > 20);
   CHECK(counts[2] > 20);
-  CHECK(counts[3] < 6);  // an optimum that is approached and never reached
+  CHECK(counts[3] < 6);  // an optimum that is approached but not attained
 }
 
-TEST_CASE("the same program gives the same bits") {
+TEST_CASE("the same program gives bit-identical results") {
   Random random(20);
   const Made made = made_program(random, true);
   const ConeSolution a = solve(made.program), b = solve(made.program);
@@ -420,7 +418,7 @@ TEST_CASE("the same program gives the same bits") {
   CHECK(a.iterations == b.iterations);
 }
 
-TEST_CASE("a program that does not fit together is refused") {
+TEST_CASE("a program with inconsistent sizes is rejected") {
   ConeProgram p;
   p.c = VectorXd::Ones(2);
   const auto refuse = [](const ConeProgram& bad, const char* message) {

@@ -1,5 +1,5 @@
-// Factorizations and products that can be stopped: the same bits as Eigen's own, and checks often
-// enough.
+// Factorizations and products that can be stopped: bit-identical to Eigen's own, with frequent
+// checks.
 #include <doctest/doctest.h>
 
 #include <Eigen/Cholesky>
@@ -34,9 +34,10 @@ MatrixXd random_symmetric(Random& random, int rows) {
 
 }  // namespace
 
-TEST_CASE("large and small matrices are factored with the bits of Eigen's own factorizations") {
+TEST_CASE("factorizations of large and small matrices are bit-identical to Eigen's own") {
   Random random(1);
-  // below and above the size from which blocks are ours, whole blocks and not
+  // below and above the size from which Clench divides into blocks, with complete and partial
+  // blocks
   for (const int rows : {1, 2, 17, 40, 300, 512, 601}) {
     CAPTURE(rows);
     const MatrixXd m = random_entries(random, rows, rows), s = random_symmetric(random, rows);
@@ -51,7 +52,7 @@ TEST_CASE("large and small matrices are factored with the bits of Eigen's own fa
   }
 }
 
-TEST_CASE("a product in parts has the bits of the undivided one") {
+TEST_CASE("a product in parts is bit-identical to the undivided one") {
   Random random(2);
   const MatrixXd a = random_entries(random, 1500, 4000);
   for (const int columns : {1, 3, 39, 45}) {
@@ -64,7 +65,7 @@ TEST_CASE("a product in parts has the bits of the undivided one") {
   }
 }
 
-TEST_CASE("a sparse factorization has the bits of Eigen's own") {
+TEST_CASE("a sparse factorization is bit-identical to Eigen's own") {
   Random random(3);
   for (const int rows : {1, 5, 60, 200}) {
     CAPTURE(rows);
@@ -83,7 +84,7 @@ TEST_CASE("a sparse factorization has the bits of Eigen's own") {
   }
 }
 
-TEST_CASE("factorizations stop between their blocks, and the next one is as if nothing had been") {
+TEST_CASE("factorizations stop between their blocks, and the next one is unaffected") {
   Random random(4);
   const int rows = 600;
   const MatrixXd m = random_entries(random, rows, rows), s = random_symmetric(random, rows);
@@ -105,7 +106,7 @@ TEST_CASE("factorizations stop between their blocks, and the next one is as if n
   CHECK(cholesky.solve(right) == by_cholesky);
 }
 
-TEST_CASE("pivots of a complementarity problem are checked one by one") {
+TEST_CASE("a complementarity problem checks for stops at each pivot") {
   Random random(5);
   const int rows = 40;
   const MatrixXd M = random_symmetric(random, rows);

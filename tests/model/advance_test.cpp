@@ -5,7 +5,7 @@
 using namespace clench;
 using namespace clench::test;
 
-TEST_CASE("a motion that would take for ever stops at the iteration limit") {
+TEST_CASE("a motion with endless small steps stops at the iteration limit") {
   World world;
   world.add_body(body_spec("table", moved(box(40, 1, 0.1), {0, 0, -0.05})), BodyKind::object, {});
   const auto table = world.bodies()[0];
@@ -20,7 +20,7 @@ TEST_CASE("a motion that would take for ever stops at the iteration limit") {
   const Advance end = advance(world, watches, 1, place, queries, 1000);
   CHECK(end.iteration_limit);
   CHECK(end.s < 1);
-  // steps of half the gap, or what it exceeds the aim by: about 30 um each
+  // steps of half the gap, or of the excess over the target gap: about 30 um each
   CHECK(end.s * 10 == doctest::Approx(1000 * 3e-5).epsilon(0.01));
   CHECK(world.pose(block).position.x() == 10 * end.s);
 }

@@ -21,7 +21,7 @@ static WorldSpec arm_and_hand(double off) {
   c.link = 1;
   c.child = 1;
   c.X_LB = Pose::translation({0.1, 0, 0});
-  // where the arm's last link is, by a world without the connection
+  // pose of the arm's last link, in a world without the connection
   World alone;
   const auto arm = alone.add_robot(spec.robots[0].robot, {});
   alone.set_dofs(arm, Eigen::Vector2d(0.5, 0));
@@ -31,7 +31,7 @@ static WorldSpec arm_and_hand(double off) {
   return spec;
 }
 
-TEST_CASE("bodies keep the file's order") {
+TEST_CASE("bodies keep the order of the file") {
   const World world = build_world(arm_and_hand(0));
   CHECK(world.body(world.bodies()[0]).name == "gripper_base");
   CHECK(world.body(world.bodies()[5]).name == "flask");
@@ -39,8 +39,7 @@ TEST_CASE("bodies keep the file's order") {
   CHECK(world.robots().size() == 2);
 }
 
-TEST_CASE(
-    "a carried robot keeps its written pose when it agrees with the connection to six digits") {
+TEST_CASE("a carried robot keeps its written pose if it agrees with the connection to six digits") {
   const WorldSpec spec = arm_and_hand(3e-6);
   std::vector<std::string> warnings;
   const World world =
@@ -50,7 +49,7 @@ TEST_CASE(
   CHECK(warnings.empty());
 }
 
-TEST_CASE("a connection that contradicts the pose wins, with a warning") {
+TEST_CASE("a connection that contradicts the pose takes precedence, with a warning") {
   std::vector<std::string> warnings;
   build_world(arm_and_hand(0.01),
               Listening{.warn = [&](const std::string& w) { warnings.push_back(w); }});
@@ -60,7 +59,8 @@ TEST_CASE("a connection that contradicts the pose wins, with a warning") {
         "the connection is used");
 }
 
-TEST_CASE("a start outside the limits is brought to the limit, with a warning beyond six digits") {
+TEST_CASE(
+    "initial values outside the limits are moved to the limit, with a warning beyond six digits") {
   WorldSpec spec = arm_and_hand(0);
   spec.robots[1].dofs = {-4e-6, -0.1};
   std::vector<std::string> warnings;
@@ -73,7 +73,7 @@ TEST_CASE("a start outside the limits is brought to the limit, with a warning be
         "limit");
 }
 
-TEST_CASE("who listens for what is repaired is told of a start that is moved, and nobody else") {
+TEST_CASE("a moved initial value is reported to the receiver of repairs only") {
   WorldSpec spec = arm_and_hand(0);
   spec.robots[1].dofs = {0, 9};
   int ignored = 0, guessed = 0, repaired = 0;
@@ -85,7 +85,7 @@ TEST_CASE("who listens for what is repaired is told of a start that is moved, an
   CHECK(repaired == 1);
 }
 
-TEST_CASE("breakaway states are taken over") {
+TEST_CASE("breakaway states are restored") {
   WorldSpec spec = arm_and_hand(0);
   spec.connections.clear();
   spec.robots[1].robot = two_finger(DofKind::breakaway);
@@ -98,7 +98,7 @@ TEST_CASE("breakaway states are taken over") {
 }
 
 TEST_CASE(
-    "a breakaway state that its DOF contradicts is dropped, one outside the limits with a "
+    "a breakaway state that its DOF contradicts is dropped, and one outside the limits with a "
     "warning") {
   WorldSpec spec = arm_and_hand(0);
   spec.connections.clear();
@@ -118,7 +118,7 @@ TEST_CASE(
         "it follows its DOF");
 }
 
-TEST_CASE("wrong counts are refused") {
+TEST_CASE("wrong counts are rejected") {
   WorldSpec spec = arm_and_hand(0);
   spec.robots[1].dofs = {0};
   CHECK_THROWS_WITH_AS(build_world(spec), "robot 'gripper_2': expected 2 DOF values, got 1", Error);
@@ -128,9 +128,9 @@ TEST_CASE("wrong counts are refused") {
                        Error);
 }
 
-TEST_CASE("links that overlap as a robot is loaded are switched off, and said to be guessed") {
+TEST_CASE("links that overlap when a robot is loaded are switched off, and reported as inferred") {
   RobotSpec spec = two_finger();
-  // the second links reach back into the base
+  // the second links overlap the base
   link_of(spec, 0, 1).body.shape = Shape::make(moved(box(0.4, 0.01, 0.01), {-0.025, 0, 0}));
   World world;
   std::vector<std::string> warnings;

@@ -1,4 +1,4 @@
-// Bits that keep bodies apart, in place of lists of pairs.
+// Bits that exclude collisions, instead of lists of pairs.
 #include "clench/base/error.h"
 #include "clench/model/build.h"
 #include "clench/model/compare_worlds.h"
@@ -20,7 +20,7 @@ World boxes(int count) {
 
 }  // namespace
 
-TEST_CASE("bodies collide as their bits say, and pair by pair as a script says") {
+TEST_CASE("bodies collide according to their bits, and single pairs as set by a script") {
   World world = boxes(5);
   const auto id = world.bodies();
   world.set_collision_bits(id[0], {.stands = true});
@@ -66,7 +66,7 @@ TEST_CASE("a world with bits is described by them, and built again") {
   CHECK(world.hash() == again.hash());
 }
 
-TEST_CASE("worlds in which the same bodies may collide are alike, by bits or by pairs") {
+TEST_CASE("worlds with the same colliding pairs are equal, by bits or by lists of pairs") {
   World bits = boxes(3), pairs = boxes(3);
   for (const auto id : bits.bodies()) bits.set_collision_bits(id, {.stands = true});
   const auto id = pairs.bodies();

@@ -18,8 +18,8 @@ static Pose any_pose(Random& random) {
   return {Eigen::Quaterniond(q).normalized(), p};
 }
 
-/// Bodies and robots in any order, carried and renamed, some removed, everything that can be set
-/// set for some.
+/// Bodies and robots in random order, carried and renamed, some removed, with random values of
+/// everything that can be set.
 static World any_world(uint64_t seed) {
   Random random(9, seed);
   const auto chance = [&](double p) { return random.uniform(0, 1) < p; };
@@ -39,7 +39,7 @@ static World any_world(uint64_t seed) {
       const auto id = world.add_robot(two_finger(DofKind::breakaway), any_pose(random));
       world.set_dofs(id, Eigen::Vector2d(random.uniform(0, 1), random.uniform(0, 1)));
       auto broken = world.own_joint_positions(id);
-      // behind where its DOF has gone
+      // behind the position of its DOF
       broken[0] = 0.5 * world.dofs(id)[0];
       world.set_dofs_unchecked(id, world.dofs(id), broken);
       if (!robots.empty() && chance(0.7)) {
@@ -83,7 +83,7 @@ TEST_CASE("the description of any world builds a world of the same fingerprint")
   }
 }
 
-TEST_CASE("what is not in the fingerprint is described too") {
+TEST_CASE("data outside the fingerprint are described too") {
   World world;
   BodySpec spec = body_spec("box", box(0.1, 0.1, 0.1));
   spec.file = "/models/box.iv";
@@ -143,7 +143,7 @@ TEST_CASE("each difference of two worlds has its phrase") {
   CHECK(only([&](World& w) { w.remove(cup); }) == phrase("its number of bodies"));
 }
 
-TEST_CASE("rules of a robot's file are switches of the world") {
+TEST_CASE("collision rules of a robot's file are switches of the world") {
   RobotSpec spec = two_finger();
   spec.collision_rules.parts_off = {1};
   spec.collision_rules.pairs_off = {{-1, 3}};
@@ -155,8 +155,8 @@ TEST_CASE("rules of a robot's file are switches of the world") {
   CHECK(world.may_collide(link_of(robot, 1, 1), cup));
 }
 
-TEST_CASE("parts nearer than the contact threshold are switched off where the robot asks for it") {
-  // the outer links of straight fingers stand 50 um apart
+TEST_CASE("parts closer than the contact threshold are switched off if the robot requests it") {
+  // the outer links of straight fingers are 50 um apart
   RobotSpec spec = two_finger();
   for (const int c : {0, 1}) joint_of(spec, c, 0).X_PJ.position.x() *= (0.005 + 0.000025) / 0.03;
   for (const bool near : {false, true}) {

@@ -47,14 +47,14 @@ static ActuatorSpec on_slide(const ActuatorSpec& law) {
   return out;
 }
 
-TEST_CASE("a motor without actuators exerts its largest effort in both directions") {
+TEST_CASE("a motor without actuators exerts its maximal effort in both directions") {
   CHECK(drive_with({}, 3).at_rest(0.05) == EffortRange{-3, 3});
   CHECK(drive_with({}).at_rest(0.05) == EffortRange{-none, none});
   CHECK(drive_with({}).limits() == EffortRange{-none, none});
   CHECK(drive_with({}).acts());
 }
 
-TEST_CASE("actuators that exert nothing have an empty range") {
+TEST_CASE("actuators without force have an empty range") {
   ActuatorSpec gear, gain, servo, damper, range;
   gear.gear = 0;
   gain.gain = 0;
@@ -85,7 +85,7 @@ TEST_CASE("a motor pulls in the direction of its gear and of its control") {
   CHECK(drive_with({on_slide(motor)}).at_rest(0) == EffortRange{-60, 0.003});
 }
 
-TEST_CASE("a servo pulls less the nearer it is to the end of its control range") {
+TEST_CASE("a servo pulls less as it approaches the end of its control range") {
   ActuatorSpec servo;
   servo.gain = 100, servo.bias = {0, -100, -5};
   servo.control_range = {{0, 0.04}};
@@ -101,7 +101,7 @@ TEST_CASE("a servo pulls less the nearer it is to the end of its control range")
   CHECK(drive_with({on_slide(servo)}).limits() == EffortRange{-2, 1.5});
 }
 
-TEST_CASE("actuators of unknown law count by their limits") {
+TEST_CASE("actuators with unknown laws are represented by their limits") {
   ActuatorSpec muscle;
   muscle.kind = "muscle", muscle.law_known = false;
   CHECK(drive_with({on_slide(muscle)}).at_rest(0) == EffortRange{-none, none});
@@ -113,7 +113,7 @@ TEST_CASE("actuators of unknown law count by their limits") {
   CHECK(drive_with({on_slide(muscle)}).at_rest(0) == EffortRange{0, 16});
 }
 
-TEST_CASE("an actuator on a tendon whose joints are not given pulls its DOF") {
+TEST_CASE("an actuator on a tendon with unknown joints pulls its DOF") {
   ActuatorSpec tendon;
   tendon.tendon = "split", tendon.dof = 0, tendon.force_range = {{-5, 5}};
   CHECK(drive_with({tendon}, 2).at_rest(0) == EffortRange{-2, 2});
@@ -159,7 +159,7 @@ TEST_CASE("a tendon pulls each joint by its coefficient, sign included") {
   const Eigen::Vector2d q(0.01, 0.02);
   CHECK(drive_of(robot, 0).at_rest(q) == EffortRange{-50, 0});
   CHECK(drive_of(robot, 1).at_rest(q) == EffortRange{0, 50});
-  // a servo feels the length that both make
+  // a servo acts on the length that results from both joints
   robot.actuators[0].gain = 100, robot.actuators[0].bias = {0, -100, 0};
   robot.actuators[0].control_range = {{0.02, 0.02}};
   const double force = 100 * (0.02 - (-0.01 + 0.5 * 2 * 0.02));
@@ -172,7 +172,7 @@ TEST_CASE("a tendon pulls each joint by its coefficient, sign included") {
   CHECK_FALSE(drive_of(robot, 0).acts());
 }
 
-TEST_CASE("limits of a joint and of a tendon bound sums of forces, each direction separately") {
+TEST_CASE("limits of a joint and of a tendon bound sums of forces, separately for each direction") {
   ActuatorSpec motor;
   motor.control_range = {{-20, 20}};
   RobotSpec robot = slider({on_slide(motor), on_slide(motor)});
@@ -195,7 +195,9 @@ TEST_CASE("limits of a joint and of a tendon bound sums of forces, each directio
   CHECK(drive_of(robot, 0).at_rest(at_0) == EffortRange{-2 * 3 * 25, 2 * 3 * 10});
 }
 
-TEST_CASE("gains that depend on length and an activation in place of the control count") {
+TEST_CASE(
+    "gains that depend on length, and an activation instead of the control, are taken into "
+    "account") {
   ActuatorSpec general;
   general.gain = 1, general.gain_slopes = {50, 0}, general.control_range = {{0, 2}};
   CHECK(drive_with({on_slide(general)}).at_rest(0.1) == EffortRange{0, 12});
@@ -215,7 +217,7 @@ TEST_CASE("gains that depend on length and an activation in place of the control
   CHECK_FALSE(is_powerless(servo));
 }
 
-TEST_CASE("the range at rest covers the efforts of all controls of random actuators") {
+TEST_CASE("the range at rest covers the efforts of random actuators for all controls") {
   Random random(7);
   for (int trial = 0; trial < 2000; ++trial) {
     ActuatorSpec a;

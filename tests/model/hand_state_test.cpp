@@ -1,4 +1,4 @@
-// Eigengrasps and virtual contacts as part of a robot: refused when they do not fit, in clones,
+// Eigengrasps and virtual contacts as part of a robot: rejected if they do not fit; in clones,
 // snapshots and hashes.
 #include "clench/base/error.h"
 #include "support/robots.h"
@@ -22,7 +22,7 @@ std::shared_ptr<const std::vector<VirtualContactSpec>> one_contact(double x) {
 
 }  // namespace
 
-TEST_CASE("sets that do not fit the robot are refused by its name") {
+TEST_CASE("sets that do not fit the robot are rejected with its name") {
   World world;
   const auto hand = world.add_robot(two_finger(), {});
   EigengraspSet set = identity_eigengrasps(3);
@@ -51,7 +51,7 @@ TEST_CASE("sets that do not fit the robot are refused by its name") {
       "virtual contact 1 of robot 'gripper': mu: expected a number from 0 to 1e+06, got -1", Error);
 }
 
-TEST_CASE("a robot whose description does not fit itself is not added at all") {
+TEST_CASE("a robot with an inconsistent description is not added") {
   World world;
   RobotSpec spec = two_finger();
   spec.eigengrasps = identity_eigengrasps(5);
@@ -61,7 +61,7 @@ TEST_CASE("a robot whose description does not fit itself is not added at all") {
   CHECK(world.bodies().empty());
 }
 
-TEST_CASE("clones and snapshots keep what was set, and do not follow what is set later") {
+TEST_CASE("clones and snapshots keep their values, and are not affected by later changes") {
   World world;
   const auto hand = world.add_robot(two_finger(), {});
   world.set_eigengrasps(hand, one_grasp(1));

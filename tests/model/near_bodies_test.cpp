@@ -13,7 +13,7 @@ using namespace clench::test;
 
 namespace {
 
-// the slow and obvious way: all pairs of two groups, each once, in their order
+// brute-force reference: all pairs of two groups, each once, in their order
 std::vector<BodyPair> all_pairs(const World& world, std::span<const Id<Body>> a,
                                 std::span<const Id<Body>> b) {
   std::vector<BodyPair> out;
@@ -48,7 +48,8 @@ World heap(Random& random, int count, double room) {
 
 }  // namespace
 
-TEST_CASE("the first colliding pairs are the first of all, of few bodies and of many") {
+TEST_CASE(
+    "the first colliding pairs equal those of a search of all pairs, for few bodies and for many") {
   Random random(7);
   for (const int count : {40, 90}) {
     World world = heap(random, count, 0.3);
@@ -65,7 +66,7 @@ TEST_CASE("the first colliding pairs are the first of all, of few bodies and of 
 TEST_CASE("the sweep finds all pairs within its reach, in the order of all pairs") {
   Random random(1);
   size_t found = 0, looked_at = 0, possible = 0;
-  // few enough to be looked at one by one, and more
+  // few enough to be tested one by one, and more
   for (const auto& [reach, count] :
        {std::pair(0.0, 40), {0.01, 40}, {0.2, 40}, {0.0, 90}, {0.05, 90}}) {
     World world = heap(random, count, 0.3);
@@ -76,7 +77,7 @@ TEST_CASE("the sweep finds all pairs within its reach, in the order of all pairs
                near = near_bodies(world, reach, world.context());
     const auto expected = nearer_than(world, every, reach);
     CHECK(nearer_than(world, near, reach) == expected);
-    // two groups that share bodies, one of them in disorder and with a body twice
+    // two groups that share bodies, one of them unsorted and with a repeated body
     std::vector<Id<Body>> a(all.begin(), all.begin() + 25), b(all.rbegin(), all.rbegin() + 25);
     b.push_back(b[2]);
     CHECK(nearer_than(world, near_bodies(world, a, b, reach, world.context()), reach) ==
@@ -87,7 +88,7 @@ TEST_CASE("the sweep finds all pairs within its reach, in the order of all pairs
   CHECK(looked_at < possible);
 }
 
-TEST_CASE("colliding pairs are those of all pairs, far from the origin as well") {
+TEST_CASE("colliding pairs equal those of a search of all pairs, also far from the origin") {
   Random random(2);
   World world = heap(random, 60, 0.25);
   const auto near_origin = colliding_pairs(world);
@@ -102,7 +103,7 @@ TEST_CASE("colliding pairs are those of all pairs, far from the origin as well")
         nearer_than(world, all_pairs(world, world.bodies(), world.bodies()), 0));
 }
 
-TEST_CASE("bodies without geometry and empty groups are near nothing") {
+TEST_CASE("bodies without geometry and empty groups have no near pairs") {
   World world;
   CHECK(near_bodies(world, 1, world.context()).empty());
   BodySpec nothing;
@@ -114,7 +115,7 @@ TEST_CASE("bodies without geometry and empty groups are near nothing") {
   CHECK(near_bodies(world, std::array{one}, std::array{one}, 1, world.context()).empty());
 }
 
-TEST_CASE("a context that remembers the last sweep finds the pairs of a fresh one") {
+TEST_CASE("a context with a cached sweep finds the pairs of a new one") {
   Random random(2);
   World world = heap(random, 90, 0.3);
   size_t found = 0;
@@ -125,7 +126,7 @@ TEST_CASE("a context that remembers the last sweep finds the pairs of a fresh on
     found += near.size();
   };
   for (int round = 0; round < 10; ++round) {
-    // some move a little; at times one is far away, and another axis is the widest
+    // some move slightly; sometimes one is far away, and another axis is the widest
     for (const auto id : world.bodies()) {
       Pose X = world.pose(id);
       X.position += random_point(random, 0.02);
@@ -138,7 +139,7 @@ TEST_CASE("a context that remembers the last sweep finds the pairs of a fresh on
     }
     check();
   }
-  // the model changes: a place is taken by another body, and the context has to make room
+  // the model changes: another body reuses an index, and the context must grow
   world.remove(world.bodies()[7]);
   check();
   for (int i = 0; i < 20; ++i)

@@ -21,7 +21,7 @@ Mesh without_lid(Mesh mesh) {
 
 }  // namespace
 
-TEST_CASE("the pair that overlaps most counts, with its point in world axes") {
+TEST_CASE("the pair with the largest overlap is returned, with its point in world axes") {
   World world;
   const auto add = [&](const char* name, const Mesh& mesh, const Vector3d& at) {
     return world.add_body(body_spec(name, mesh), BodyKind::object, Pose::translation(at));
@@ -42,7 +42,7 @@ TEST_CASE("the pair that overlaps most counts, with its point in world axes") {
   CHECK_FALSE(penetration(world, std::array{away}, std::array{slab}).a);
 }
 
-TEST_CASE("of an open mesh the surface counts, and two that cross have no finite depth") {
+TEST_CASE("the surface of an open mesh counts, and two crossing open meshes have no finite depth") {
   World world;
   const auto add = [&](const char* name, const Mesh& mesh, double z) {
     return world.add_body(body_spec(name, mesh), BodyKind::object, Pose::translation({0, 0, z}));

@@ -70,11 +70,12 @@ void stir(World& world, Random& random) {
 
 }  // namespace
 
-TEST_CASE("a fresh context, a used one, that of another world and none give the same bits") {
+TEST_CASE(
+    "a new context, a used one, one of another world and no context give bit-identical results") {
   Random random(1);
   size_t hits = 0;
   for (int round = 0; round < 4; ++round) {
-    // a clone that lost a body and got another has other things under the same numbers
+    // a clone in which a body was replaced has another body at the same index
     World world = pile(random, 12), other = world, stranger = pile(random, 14);
     QueryContext used, both;
     std::vector<std::shared_ptr<const Snapshot>> moments;
@@ -97,7 +98,7 @@ TEST_CASE("a fresh context, a used one, that of another world and none give the 
   CHECK(hits > 100);
 }
 
-TEST_CASE("many threads read one world, each with a context of its own") {
+TEST_CASE("many threads read one world, each with its own context") {
   Random random(2);
   World world = pile(random, 15);
   stir(world, random);

@@ -9,7 +9,7 @@ using namespace clench;
 using namespace clench::test;
 using Eigen::Vector3d;
 
-TEST_CASE("a ray meets the nearest triangle of all, as one by one in world coordinates") {
+TEST_CASE("a ray hits the nearest triangle of all, as in a search in world coordinates") {
   Random random(8, 0);
   World world;
   for (int i = 0; i < 12; ++i)
@@ -33,7 +33,7 @@ TEST_CASE("a ray meets the nearest triangle of all, as one by one in world coord
     if (!found) continue;
     ++hits;
     CHECK(found->body == *first);
-    // coordinates of 1 m, rounded on the way into the body's frame and back
+    // coordinates of 1 m, rounded by the transformation to the body's frame and back
     CHECK(std::abs(found->distance - nearest) < 1e-13);
     CHECK((found->p_W - origin - nearest * direction).norm() < 1e-13);
     CHECK(std::abs(found->n_W.norm() - 1) < 1e-15);
@@ -42,7 +42,8 @@ TEST_CASE("a ray meets the nearest triangle of all, as one by one in world coord
 }
 
 TEST_CASE(
-    "a ray that goes elsewhere, ends before, or meets a body without a surface meets nothing") {
+    "a ray in another direction, one that ends before, and one through a body without a surface "
+    "hit nothing") {
   World world;
   world.add_body(body_spec("b", box(0.1, 0.1, 0.1)), BodyKind::object, {});
   BodySpec frame = body_spec("f", box(1, 1, 1));

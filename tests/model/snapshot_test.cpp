@@ -12,7 +12,7 @@ using namespace clench::test;
 
 namespace {
 
-/// Worlds of one family, and moments of them, each with the fingerprint that it must keep.
+/// Worlds of one family, and snapshots of them, each with the fingerprint that it must keep.
 struct Family {
   struct Moment {
     std::shared_ptr<const Snapshot> snapshot;
@@ -22,7 +22,7 @@ struct Family {
   std::vector<World> worlds;
   std::vector<uint64_t> hashes;
   std::vector<Moment> moments;
-  std::map<Id<Body>, std::string> names;  // of whatever was ever made
+  std::map<Id<Body>, std::string> names;  // of all bodies ever added
   int made = 0;
 
   explicit Family(uint64_t seed) : random(seed), worlds(1), hashes{worlds[0].hash()} {}
@@ -92,7 +92,7 @@ void Family::step() {
 void Family::check() const {
   for (size_t w = 0; w < worlds.size(); ++w) {
     CHECK(worlds[w].hash() == hashes[w]);
-    // an id means one body, wherever it is alive
+    // an id denotes the same body in all worlds in which it exists
     for (const auto& [id, name] : names)
       if (worlds[w].alive(id)) CHECK(worlds[w].body(id).name == name);
   }
@@ -100,7 +100,9 @@ void Family::check() const {
 
 }  // namespace
 
-TEST_CASE("what one of many clones does no other sees, and a moment restores into each of them") {
+TEST_CASE(
+    "changes of one of many clones are invisible to the others, and a snapshot can be restored "
+    "into each of them") {
   for (uint64_t seed = 0; seed < 8; ++seed) {
     Family family(seed);
     for (int step = 0; step < 120; ++step) {
@@ -112,7 +114,7 @@ TEST_CASE("what one of many clones does no other sees, and a moment restores int
   }
 }
 
-TEST_CASE("a snapshot of another world is refused") {
+TEST_CASE("a snapshot of another world is rejected") {
   World world, other;
   const auto hash = world.hash();
   CHECK_THROWS_WITH_AS(world.restore(*other.snapshot()),
@@ -125,7 +127,7 @@ TEST_CASE("a snapshot of another world is refused") {
   CHECK(second.hash() == clone.hash());
 }
 
-TEST_CASE("clones are changed by as many threads, and come out as one after the other does") {
+TEST_CASE("clones changed by parallel threads equal clones changed one after the other") {
   World world;
   const auto hand = world.add_robot(two_finger(), {});
   const auto thing = world.add_body(body_spec("thing", box(0.02, 0.02, 0.02)), BodyKind::object,

@@ -15,8 +15,7 @@ static Id<Body> add_box(World& world, const std::string& name, const Eigen::Vect
                         Pose::translation(at));
 }
 
-TEST_CASE(
-    "a center of mass that is set later gives the inertia that it gives as part of the spec") {
+TEST_CASE("setting a center of mass later gives the same inertia as in the spec") {
   const Eigen::Vector3d com(0.01, -0.02, 0.03);
   BodySpec spec = body_spec("box", box(0.1, 0.2, 0.3)), moved = spec;
   moved.com = com;
@@ -25,7 +24,7 @@ TEST_CASE(
              at_once = world.add_body(moved, BodyKind::object, {});
   world.set_com(later, com);
   CHECK(world.body(later).inertia_per_mass == world.body(at_once).inertia_per_mass);
-  // back again, and one that was given
+  // moved back, and with a given inertia
   world.set_com(later, com_of(spec));
   CHECK(world.body(later).inertia_per_mass == inertia_of(spec));
   world.set_inertia(later, Eigen::Vector3d(1, 2, 2).asDiagonal());
@@ -34,7 +33,7 @@ TEST_CASE(
   CHECK(world.body(later).inertia_per_mass == given);
 }
 
-TEST_CASE("a new thing may stand where another one stands, however the world grows") {
+TEST_CASE("a pose may be that of another body, also when the world grows") {
   World world;
   const auto first = add_box(world, "box", {1, 2, 3});
   for (int i = 0; i < 40; ++i) {
@@ -55,7 +54,7 @@ TEST_CASE("names are unique: the second box of the same name gets a number") {
                        "the name 'box' is taken in this world", Error);
 }
 
-TEST_CASE("a removed body is named by the error, not followed") {
+TEST_CASE("an error names a removed body") {
   World world;
   const auto id = add_box(world, "flask", {0, 0, 0});
   world.remove(id);
@@ -65,7 +64,7 @@ TEST_CASE("a removed body is named by the error, not followed") {
                        Error);
 }
 
-TEST_CASE("restoring brings removed bodies back and makes younger ones stale for good") {
+TEST_CASE("restoring brings removed bodies back and makes newer ones stale for good") {
   World world;
   const auto old = add_box(world, "old", {0, 0, 0});
   const auto snapshot = world.snapshot();
@@ -80,7 +79,7 @@ TEST_CASE("restoring brings removed bodies back and makes younger ones stale for
   CHECK_THROWS_WITH_AS(world.body(young), "this body is no longer in its world", Error);
 }
 
-TEST_CASE("mass properties come from the solid when the file gives none") {
+TEST_CASE("mass properties are computed from the solid if the file gives none") {
   World world;
   auto spec = body_spec("block", moved(box(0.1, 0.2, 0.3), {0.05, 0, 0}));
   spec.mass = 2;
@@ -116,7 +115,7 @@ TEST_CASE("a body without geometry loads and never collides") {
   CHECK(std::isinf(distance(world, a, b).distance));
 }
 
-TEST_CASE("links stand where Denavit and Hartenberg put them") {
+TEST_CASE("links have the poses of their Denavit-Hartenberg parameters") {
   World world;
   const auto id = world.add_robot(two_finger(), Pose::translation({0, 0, 1}));
   const double q = 0.3;
@@ -148,7 +147,7 @@ TEST_CASE("moving a robot moves its links rigidly") {
   CHECK(off.angle() < 1e-15);
 }
 
-TEST_CASE("DOF values are refused with what was expected and got") {
+TEST_CASE("DOF values are rejected with expected and got values") {
   World world;
   const auto id = world.add_robot(two_finger(), {});
   CHECK_THROWS_WITH_AS(world.set_dofs(id, Eigen::Vector3d(1, 2, 3)),
@@ -159,7 +158,7 @@ TEST_CASE("DOF values are refused with what was expected and got") {
                        "robot 'gripper': DOF 2 must lie in [0, 1.571] rad, got -1", Error);
 }
 
-TEST_CASE("parts of a robot can neither be moved nor removed by themselves") {
+TEST_CASE("parts of a robot cannot be moved or removed separately") {
   World world;
   const auto id = world.add_robot(two_finger(), {});
   const auto link = link_of(world.robot(id), 0, 0);
@@ -174,7 +173,7 @@ TEST_CASE("parts of a robot can neither be moved nor removed by themselves") {
   CHECK_THROWS_WITH_AS(world.robot(id), "robot 'gripper' was removed from its world", Error);
 }
 
-TEST_CASE("the manual's pairs are off on load: base and first links, links of one chain") {
+TEST_CASE("the manual's pairs are off after loading: base and first links, links of one chain") {
   World world;
   const auto id = world.add_robot(two_finger(), {});
   const Robot& robot = world.robot(id);
@@ -201,7 +200,7 @@ TEST_CASE("switches act on the world, a body, a pair") {
   CHECK(colliding_pairs(world).size() == 1);
 }
 
-TEST_CASE("a copy shares meshes and nothing else") {
+TEST_CASE("a copy shares only meshes") {
   World world;
   const auto robot = world.add_robot(two_finger(), {});
   World copy = world;
@@ -232,7 +231,7 @@ TEST_CASE("distance and contacts do not depend on the order of the pair") {
   }
 }
 
-TEST_CASE("an arm carries a hand: it follows, and what is rigidly joined never collides") {
+TEST_CASE("a hand follows the arm that carries it, and rigidly joined bodies never collide") {
   World world;
   const auto arm = world.add_robot(two_finger(), {});
   const auto hand = world.add_robot(two_finger(), Pose::translation({0, 1, 0}));
@@ -263,14 +262,14 @@ TEST_CASE("an arm carries a hand: it follows, and what is rigidly joined never c
   world.set_pose(hand, Pose{});
 }
 
-TEST_CASE("a mount on a link that is not there is refused with the range") {
+TEST_CASE("a mount on a missing link is rejected with the range") {
   World world;
   const auto arm = world.add_robot(two_finger(), {}), hand = world.add_robot(two_finger(), {});
   CHECK_THROWS_WITH_AS(world.mount(hand, arm, 4, Pose{}),
                        "robot 'gripper_2': expected a link of 'gripper', 0 to 3, got 4", Error);
 }
 
-TEST_CASE("properties refuse what is no mass, inertia, modulus, threshold, material or name") {
+TEST_CASE("invalid values of mass, inertia, modulus, threshold, material and name are rejected") {
   World world;
   const auto a = add_box(world, "a", {0, 0, 0});
   add_box(world, "b", {1, 0, 0});
@@ -303,7 +302,7 @@ TEST_CASE("properties refuse what is no mass, inertia, modulus, threshold, mater
       "body 'a': expected a position within 1e+09 m of the origin, got (nan, 0, 0)", Error);
 }
 
-TEST_CASE("a body may not stand where rounding leaves nothing of it, nor take a robot's name") {
+TEST_CASE("a body may not be farther than 1e9 m from the origin, nor have a robot's name") {
   World world;
   const auto a = add_box(world, "a", {0, 0, 0});
   world.add_robot(two_finger(), Pose::translation({1, 0, 0}));
@@ -314,8 +313,7 @@ TEST_CASE("a body may not stand where rounding leaves nothing of it, nor take a 
                        Error);
 }
 
-TEST_CASE(
-    "a robot of which a link would stand too far out is not added, moved, driven or mounted") {
+TEST_CASE("a robot with a link too far away is not added, moved, driven or mounted") {
   RobotSpec far = two_finger();
   joint_of(far, 0, 0).X_PJ.position.z() = 1e9;
   World world;
@@ -351,8 +349,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "an inertia that no body has, a name with control characters and a camera nowhere are "
-    "refused") {
+    "an impossible inertia, a name with control characters and an invalid camera are rejected") {
   World world;
   const auto a = add_box(world, "a", {0, 0, 0});
   CHECK_THROWS_WITH_AS(world.set_inertia(a, Eigen::Vector3d(1, 1, 100).asDiagonal()),
@@ -374,13 +371,13 @@ TEST_CASE(
   CHECK_FALSE(world.camera());
 }
 
-TEST_CASE("the parts of a robot that is given a long name are named within its length") {
+TEST_CASE("the names of parts of a robot with a long name have a limited length") {
   World world;
   const auto hand = world.add_robot(two_finger(), {}, std::string(250, 'x'));
   for (const auto body : world.bodies_of(hand)) CHECK(world.body(body).name.size() <= 252);
 }
 
-TEST_CASE("the hash knows shapes and mountings") {
+TEST_CASE("the hash depends on shapes and mountings") {
   World one, two;
   auto spec = body_spec("block", box(1, 1, 1));
   spec.com = Eigen::Vector3d(0, 0, 0);
@@ -401,7 +398,7 @@ TEST_CASE("the hash knows shapes and mountings") {
   CHECK(apart.hash() != mounted.hash());
 }
 
-TEST_CASE("the witness points of a tie do not depend on what was asked before") {
+TEST_CASE("the nearest points of a tie do not depend on earlier queries") {
   World world;
   const auto a = add_box(world, "a", {0, 0, 0}, 1), b = add_box(world, "b", {2, 0, 0}, 1);
   const std::array ga{a}, gb{b};
@@ -424,7 +421,7 @@ TEST_CASE("a thousand boxes of one name are numbered one by one") {
   CHECK(world.body(world.bodies().back()).name == "box_1000");
 }
 
-TEST_CASE("the hash follows every bit of the state") {
+TEST_CASE("the hash depends on every bit of the state") {
   World world;
   const auto a = add_box(world, "a", {0, 0, 0});
   const auto robot = world.add_robot(two_finger(), Pose::translation({1, 0, 0}));

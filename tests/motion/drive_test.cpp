@@ -50,7 +50,7 @@ TEST_CASE("closing stops both fingers on the object with a gap within the thresh
     CHECK(gap > 0);
     CHECK(gap <= bench.world.contact_threshold());
   }
-  // two mirrored fingers on a centered ball close alike, but for where in the threshold each stops
+  // two mirrored fingers on a centered ball close equally, up to the contact threshold
   CHECK(std::abs(bench.dofs()[0] - bench.dofs()[1]) < 0.01);
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("closing again moves nothing") {
   }
 }
 
-TEST_CASE("an empty hand closes to where its fingers meet") {
+TEST_CASE("an empty hand closes until its fingers touch") {
   Bench bench(DofKind::rigid, 0.5, ball(0.015), {0, 1, 0});
   const auto result = autograsp(bench.world, bench.hand);
   CHECK(colliding_pairs(bench.world).empty());
@@ -76,8 +76,8 @@ TEST_CASE("an empty hand closes to where its fingers meet") {
   CHECK(gap <= bench.world.contact_threshold());
 }
 
-TEST_CASE("a thin wall is not tunneled by a long drive") {
-  // half a millimeter thin, in the way of both fingers
+TEST_CASE("a long drive does not tunnel through a thin wall") {
+  // half a millimeter thin, in the path of both fingers
   Bench bench(DofKind::rigid, 0.5, box(0.0005, 0.2, 0.2), {0, 0.15, 0});
   autograsp(bench.world, bench.hand);
   for (const int c : {0, 1})
@@ -87,8 +87,8 @@ TEST_CASE("a thin wall is not tunneled by a long drive") {
     }
 }
 
-TEST_CASE("a breakaway finger goes on closing beyond the joint that contact stopped") {
-  // the first link meets the ball early, the second one is still free
+TEST_CASE("a breakaway finger continues to close beyond the joint that contact stopped") {
+  // the first link touches the ball early, while the second one is still free
   Bench rigid(DofKind::rigid, 0.5, ball(0.02), {0, 0.03, 0});
   Bench breakaway(DofKind::breakaway, 0.5, ball(0.02), {0, 0.03, 0});
   autograsp(rigid.world, rigid.hand);
@@ -100,13 +100,14 @@ TEST_CASE("a breakaway finger goes on closing beyond the joint that contact stop
   CHECK(breakaway.world.joints(breakaway.hand)[1] > rigid.world.joints(rigid.hand)[1] + 0.05);
   CHECK(colliding_pairs(breakaway.world).empty());
 
-  // opening picks the joint up where it was left
+  // opening recouples the joint at the position where it broke away
   open_hand(breakaway.world, breakaway.hand);
   CHECK_FALSE(breakaway.own_position(0, 0));
   CHECK(breakaway.dofs() == Eigen::Vector2d(0, 0));
 }
 
-TEST_CASE("a drive without obstacles reaches its targets exactly, in a straight line of DOFs") {
+TEST_CASE(
+    "a drive without obstacles reaches its targets exactly, on a straight line in DOF space") {
   Bench bench(DofKind::rigid, 0.5, ball(0.01), {0, 2, 0});
   const auto result = drive_to(bench.world, bench.hand, Eigen::Vector2d(0.123456789, 0.2));
   CHECK(bench.dofs() == Eigen::Vector2d(0.123456789, 0.2));
@@ -114,14 +115,14 @@ TEST_CASE("a drive without obstacles reaches its targets exactly, in a straight 
   CHECK(result.moved);
 }
 
-TEST_CASE("stop_at_contact ends at the first touch of any finger") {
+TEST_CASE("stop_at_contact ends at the first contact of any finger") {
   Bench bench(DofKind::rigid, 0.5, ball(0.01), {0.012, 0.07, 0});
   autograsp(bench.world, bench.hand, 1, {.stop_at_contact = true});
   CHECK(bench.gap(bench.link(0, 1)) <= bench.world.contact_threshold());
   CHECK(bench.gap(bench.link(1, 1)) > 0.001);
 }
 
-TEST_CASE("speed scales nothing but the sense: closing twice as fast ends the same") {
+TEST_CASE("only the sign of the speed matters: closing twice as fast ends at the same values") {
   Bench slow, fast;
   autograsp(slow.world, slow.hand, 1);
   autograsp(fast.world, fast.hand, 1024);
@@ -139,12 +140,12 @@ TEST_CASE("the grasp moves with the world") {
   there.world.set_pose(there.object, X * there.world.pose(there.object));
   autograsp(here.world, here.hand);
   autograsp(there.world, there.hand);
-  // the stop may be anywhere within the threshold over a lever of 40 mm, but rounding alone decides
-  // where
+  // the stop may be anywhere within the threshold with a lever of 40 mm, but only rounding makes a
+  // difference
   CHECK((here.dofs() - there.dofs()).norm() < 1e-9);
 }
 
-TEST_CASE("a start in collision is an error that names the pair") {
+TEST_CASE("an initial collision is an error that names the pair") {
   Bench bench(DofKind::rigid, 0.5, ball(0.02), {0.03, 0.05, 0});
   CHECK_THROWS_WITH_AS(autograsp(bench.world, bench.hand),
                        "driving 'gripper': the motion starts in collision: gripper_chain0_link0 "
@@ -152,7 +153,7 @@ TEST_CASE("a start in collision is an error that names the pair") {
                        Error);
 }
 
-TEST_CASE("opening frees a hand that overlaps, and says so when it cannot") {
+TEST_CASE("opening frees a hand that overlaps, or reports that it cannot") {
   Bench bench(DofKind::rigid, 0.5, ball(0.02), {0, 0.07, 0});
   bench.world.set_dofs(bench.hand, Eigen::Vector2d(0.6, 0.6));
   REQUIRE_FALSE(colliding_pairs(bench.world).empty());
@@ -164,7 +165,7 @@ TEST_CASE("opening frees a hand that overlaps, and says so when it cannot") {
   CHECK_THROWS_AS(open_hand(stuck.world, stuck.hand), Error);
 }
 
-TEST_CASE("wrong numbers are refused") {
+TEST_CASE("invalid arguments of a drive are rejected") {
   Bench bench;
   CHECK_THROWS_WITH_AS(autograsp(bench.world, bench.hand, 0),
                        "autograsp of 'gripper': the speed must be finite and not 0, got 0", Error);

@@ -44,13 +44,13 @@ Case random_case(Random& random, bool with_norm = true) {
   return c;
 }
 
-// sums of some twenty products of numbers below ten, and a solve of their kind: random sets of as
-// many vectors as DOFs are ill conditioned, by a few thousand at times
+// sums of some twenty products of numbers below ten, and a solution with them: random sets with as
+// many vectors as DOFs have condition numbers of up to a few thousand
 constexpr double rounding = 1e-10;
 
 }  // namespace
 
-TEST_CASE("amplitudes of a posture of the set are the ones it was made of") {
+TEST_CASE("the posture of given amplitudes has these amplitudes") {
   for (uint64_t i = 0; i < 50; ++i) {
     Random random(21, i);
     const Case c = random_case(random);
@@ -62,7 +62,7 @@ TEST_CASE("amplitudes of a posture of the set are the ones it was made of") {
   }
 }
 
-TEST_CASE("amplitudes give the nearest posture of the set, measured over the norm") {
+TEST_CASE("amplitudes give the nearest posture of the set, in the weighted norm") {
   for (uint64_t i = 0; i < 20; ++i) {
     Random random(22, i);
     const Case c = random_case(random);
@@ -77,7 +77,7 @@ TEST_CASE("amplitudes give the nearest posture of the set, measured over the nor
   }
 }
 
-TEST_CASE("free mode reaches the amplitudes and keeps what lies outside the set") {
+TEST_CASE("free mode reaches the amplitudes and keeps the component outside of the set") {
   for (uint64_t i = 0; i < 50; ++i) {
     Random random(23, i);
     const Case c = random_case(random);
@@ -86,17 +86,18 @@ TEST_CASE("free mode reaches the amplitudes and keeps what lies outside the set"
                    a = random_vector(random, grasps.size());
     const VectorXd q = grasps.posture(a, from);
     CHECK((grasps.amplitudes(q) - a).norm() < rounding * (1 + a.norm()));
-    // the rest is the posture less the posture of its amplitudes
+    // the component outside: the posture minus the posture of its amplitudes
     const VectorXd rest = from - grasps.posture(grasps.amplitudes(from)),
                    rest_now = q - grasps.posture(grasps.amplitudes(q));
     CHECK((rest - rest_now).norm() < rounding * (1 + rest.norm() + a.norm()));
-    // a posture of the set has none, and both modes agree
+    // it is zero for a posture of the set, and both modes agree
     const VectorXd inside = grasps.posture(random_vector(random, grasps.size()));
     CHECK((grasps.posture(a, inside) - grasps.posture(a)).norm() < rounding * (1 + inside.norm()));
   }
 }
 
-TEST_CASE("one eigengrasp a DOF: amplitudes are DOFs, counted from the middle of their ranges") {
+TEST_CASE(
+    "one eigengrasp per DOF: amplitudes are DOF values relative to the middle of their ranges") {
   World world;
   const auto hand = world.add_robot(two_finger(), {});
   const Eigengrasps grasps(world.robot(hand));
@@ -110,14 +111,14 @@ TEST_CASE("one eigengrasp a DOF: amplitudes are DOFs, counted from the middle of
   CHECK((grasps.posture(grasps.amplitudes(vec({0.3, 0.5}))) - vec({0.3, 0.5})).norm() < 1e-15);
 }
 
-TEST_CASE("the origin is brought into the limits") {
+TEST_CASE("the origin is moved into the limits") {
   EigengraspSet set = identity_eigengrasps(2);
   set.origin = vec({5, -5});
   CHECK(Eigengrasps(set, {{0, 1}, {-1, 1}}).origin() == vec({1, -1}));
   CHECK(Eigengrasps(set, {}).origin() == vec({5, -5}));
 }
 
-TEST_CASE("between the limits of an amplitude no DOF leaves its range, beyond them one does") {
+TEST_CASE("within the limits of an amplitude no DOF leaves its range, and beyond them one does") {
   for (uint64_t i = 0; i < 30; ++i) {
     Random random(24, i);
     const Case c = random_case(random);
@@ -143,7 +144,7 @@ TEST_CASE("between the limits of an amplitude no DOF leaves its range, beyond th
   }
 }
 
-TEST_CASE("limits of a file stand, and a DOF that hardly moves sets none") {
+TEST_CASE("limits of a file take precedence, and a DOF that hardly moves limits nothing") {
   EigengraspSet set = identity_eigengrasps(2);
   set.grasps[0].limits = {-7, 8};
   set.grasps[1].vector = vec({1e-20, 1});
@@ -153,7 +154,7 @@ TEST_CASE("limits of a file stand, and a DOF that hardly moves sets none") {
   CHECK(grasps.limits(vec({0, 0}))[1] == Range{-1, 1});
 }
 
-TEST_CASE("the range holds the amplitudes of all postures within the limits, and is reached") {
+TEST_CASE("the range covers the amplitudes of all postures within the limits, and is attained") {
   for (uint64_t i = 0; i < 20; ++i) {
     Random random(25, i);
     const Case c = random_case(random);
@@ -178,7 +179,7 @@ TEST_CASE("the range holds the amplitudes of all postures within the limits, and
   }
 }
 
-TEST_CASE("wrong counts and numbers that are none are refused") {
+TEST_CASE("wrong counts and invalid numbers are rejected") {
   const Eigengrasps grasps(identity_eigengrasps(2), {{0, 1}, {0, 1}});
   CHECK_THROWS_WITH_AS(grasps.amplitudes(vec({1})), "eigengrasps: expected 2 DOF values, got 1",
                        Error);
@@ -200,7 +201,7 @@ struct Component {
   VectorXd direction;
 };
 
-// Jacobi's rotations of the covariance, entry by entry: slow, and nothing to doubt
+// Jacobi rotations of the covariance, entry by entry: slow and simple
 // source  Golub & Van Loan (2013), Matrix computations, sec. 8.5
 std::vector<Component> slow_components(const std::vector<VectorXd>& postures) {
   const int n = static_cast<int>(postures.front().size());
@@ -241,7 +242,7 @@ std::vector<VectorXd> random_postures(uint64_t seed, int count, int dofs) {
 
 }  // namespace
 
-TEST_CASE("principal components are those of a slow decomposition of the covariance") {
+TEST_CASE("principal components equal those of a slow decomposition of the covariance") {
   for (uint64_t seed = 0; seed < 5; ++seed) {
     const int dofs = 2 + static_cast<int>(seed);
     const auto postures = random_postures(seed, 30, dofs);
@@ -250,7 +251,7 @@ TEST_CASE("principal components are those of a slow decomposition of the covaria
     REQUIRE(static_cast<int>(set.grasps.size()) == dofs);
     for (int i = 0; i < dofs; ++i) {
       CHECK(set.grasps[i].eigenvalue == doctest::Approx(slow[i].variance).epsilon(1e-10));
-      // up to the sign; eigenvalues of random postures lie well apart
+      // up to the sign; eigenvalues of random postures are well separated
       CHECK(std::abs(set.grasps[i].vector.dot(slow[i].direction)) ==
             doctest::Approx(1).epsilon(1e-9));
       int largest = 0;
@@ -260,7 +261,7 @@ TEST_CASE("principal components are those of a slow decomposition of the covaria
   }
 }
 
-TEST_CASE("as many components as postures vary in give every posture back") {
+TEST_CASE("as many components as the postures span reproduce every posture") {
   const auto postures = random_postures(9, 4, 7);
   const auto set = principal_eigengrasps(postures);
   CHECK(set.grasps.size() == 3);
@@ -269,13 +270,13 @@ TEST_CASE("as many components as postures vary in give every posture back") {
   CHECK(principal_eigengrasps(postures, 2).grasps.size() == 2);
 }
 
-TEST_CASE("the same postures give the same bits") {
+TEST_CASE("the same postures give bit-identical components") {
   const auto postures = random_postures(2, 20, 6);
   const auto a = principal_eigengrasps(postures), b = principal_eigengrasps(postures);
   for (size_t i = 0; i < a.grasps.size(); ++i) CHECK(a.grasps[i].vector == b.grasps[i].vector);
 }
 
-TEST_CASE("postures that give no components are refused") {
+TEST_CASE("postures without components are rejected") {
   CHECK_THROWS_WITH_AS(principal_eigengrasps({vec({1, 2})}),
                        "eigengrasps: expected at least 2 postures, got 1", Error);
   CHECK_THROWS_WITH_AS(principal_eigengrasps({vec({1, 2}), vec({1, 2})}),
@@ -296,11 +297,11 @@ TEST_CASE("postures that give no components are refused") {
 
 // --- the original ---
 
-TEST_CASE("24 postures of three hands have the amplitudes that the original measured") {
+TEST_CASE("24 postures of three hands have the amplitudes measured with the original") {
   REQUIRE_SHARED();
   const auto robots = shared() / "data/graspit/models/robots";
   const auto xml = shared() / "data/graspit-xml/models/robots";
-  // the set of the human hand was measured on its XML model, whose file names another set
+  // the set of the human hand was measured with its XML model, whose file names another set
   const std::tuple<const char*, const char*, const char*> cases[] = {
       {"eigen_barrett", "Barrett/Barrett.cfg", ""},
       {"eigen_dlr", "DLR/DLR.cfg", ""},

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double upper = 0.4, lower = 0.3;  // lengths of a planar arm [m]
 
-// two links in the plane z = 0 and a third that turns the hand, each by a DOF of its own
+// two links in the plane z = 0 and a third that turns the hand, each by its own DOF
 RobotSpec planar_arm(double elbow_min, double elbow_max) {
   RobotSpec robot;
   robot.name = "arm";
@@ -62,7 +62,8 @@ const IkOptions only_place = {.orientation = IkOrientation::none};
 }  // namespace
 
 TEST_CASE(
-    "a planar arm reaches what the law of cosines lets it reach and comes straight nearest else") {
+    "a planar arm reaches targets according to the law of cosines, or the nearest point when "
+    "straight") {
   Standing s = stand(planar_arm(-3, 3));
   Random random(1);
   for (int i = 0; i < 200; ++i) {
@@ -72,10 +73,10 @@ TEST_CASE(
                                            {.orientation = IkOrientation::none, .starts = 40});
     CAPTURE(r);
     const double beyond = std::max({0.0, r - (upper + lower), (upper - lower) - r});
-    // what lies at the elbow's limit of 3 rad, short of the half turn, cannot be reached either
+    // targets near the base require an elbow angle beyond its limit of 3 rad
     if (r < 0.12) continue;
     CHECK(result.reached == (beyond < 1e-6));
-    // nearest by a flat minimum: its place is the root of its rounding
+    // the minimum is flat: its position is accurate to the root of rounding
     CHECK(result.distance == doctest::Approx(beyond).epsilon(1e-9).scale(1e3));
     if (!result.reached) continue;
     const double cosine = (r * r - upper * upper - lower * lower) / (2 * upper * lower);
@@ -83,7 +84,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a limited elbow comes as near as a fine grid of all postures") {
+TEST_CASE("a limited elbow comes as close as a fine grid of all postures") {
   Standing s = stand(planar_arm(0.3, 0.9));
   Random random(2);
   for (int i = 0; i < 20; ++i) {
@@ -105,7 +106,7 @@ TEST_CASE("a limited elbow comes as near as a fine grid of all postures") {
   }
 }
 
-TEST_CASE("arms of ours reach every pose of a posture of theirs within their limits") {
+TEST_CASE("shipped arms reach the pose of every posture within their limits") {
   for (const std::string name : {"arms/puma560/puma560.cfg", "arms/ur5/ur5.cfg"}) {
     CAPTURE(name);
     Standing s = stand(model(name), {Eigen::Quaterniond(0.5, 0.5, 0.5, 0.5), {1, 2, 3}});
@@ -118,7 +119,7 @@ TEST_CASE("arms of ours reach every pose of a posture of theirs within their lim
       const auto result = inverse_kinematics(s.world, s.robot, s.last(), target);
       CHECK(result.reached);
       CHECK(VectorXd(s.world.dofs(s.robot)) == before);
-      s.world.set_dofs(s.robot, result.dofs);  // which refuses what lies outside
+      s.world.set_dofs(s.robot, result.dofs);  // which rejects values outside
       const Pose left = s.world.pose(s.last()).inverse() * target;
       CHECK(left.position.norm() == doctest::Approx(result.distance).epsilon(1e-6).scale(1e-6));
       CHECK(left.position.norm() <= 1e-6);
@@ -127,7 +128,7 @@ TEST_CASE("arms of ours reach every pose of a posture of theirs within their lim
   }
 }
 
-TEST_CASE("where only an axis counts any turn about it will do") {
+TEST_CASE("if only an axis is matched, any rotation about it is accepted") {
   Standing s = stand(model("arms/ur5/ur5.cfg"));
   Random random(4);
   for (int i = 0; i < 50; ++i) {
@@ -146,7 +147,7 @@ TEST_CASE("where only an axis counts any turn about it will do") {
   }
 }
 
-TEST_CASE("DOFs that may not move stay and results do not depend on where the world lies") {
+TEST_CASE("fixed DOFs stay, and results do not depend on the pose of the world") {
   Standing here = stand(model("arms/ur5/ur5.cfg"));
   const Pose X{Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5), {3, -2, 1}};
   Standing there = stand(model("arms/ur5/ur5.cfg"), X);
@@ -155,17 +156,17 @@ TEST_CASE("DOFs that may not move stay and results do not depend on where the wo
   const auto a = inverse_kinematics(here.world, here.robot, here.last(), target, options);
   const auto b = inverse_kinematics(there.world, there.robot, there.last(), X * target, options);
   for (const int dof : {0, 3, 4, 5}) CHECK(a.dofs[dof] == here.world.dofs(here.robot)[dof]);
-  // two of six DOFs leave a distance, whose least is flat: places agree to the root of rounding
+  // two of six DOFs leave a distance with a flat minimum: positions agree to the root of rounding
   CHECK(a.distance > 1e-3);
   CHECK(a.distance == doctest::Approx(b.distance).epsilon(1e-9));
 }
 
-TEST_CASE("solutions that collide are passed over") {
+TEST_CASE("colliding solutions are skipped") {
   Standing s = stand(planar_arm(-3, 3));
   const Pose target = Pose::translation({0.5, 0, 0});
   const auto free = inverse_kinematics(s.world, s.robot, s.link(1), target, only_place);
   REQUIRE(free.reached);
-  // a post where the elbow would be
+  // a post at the position of the elbow
   s.world.set_dofs(s.robot, free.dofs);
   const auto post = s.world.add_body(body_spec("post", box(0.03, 0.03, 0.03)), BodyKind::obstacle,
                                      s.world.pose(s.link(0)));
@@ -186,7 +187,7 @@ TEST_CASE("solutions that collide are passed over") {
   CHECK(s.world.alive(post));
 }
 
-TEST_CASE("an arm brings the hand that it carries to its place") {
+TEST_CASE("an arm moves the hand that it carries to its target") {
   Standing s = stand(model("arms/puma560/puma560.cfg"));
   const auto hand = s.world.add_robot(model("hands/barrett/barrett.cfg"), {});
   s.world.mount(hand, s.robot, static_cast<int>(s.world.robot(s.robot).links.size()) - 1,
@@ -202,7 +203,7 @@ TEST_CASE("an arm brings the hand that it carries to its place") {
   CHECK((s.world.pose(tip).position - at_tip.position).norm() < 1e-5);
 }
 
-TEST_CASE("Jacobians are what small steps of the DOFs do") {
+TEST_CASE("Jacobians equal the effect of small steps of the DOFs") {
   for (const std::string name : {"arms/puma560/puma560.cfg", "hands/barrett/barrett.cfg",
                                  "hands/parallel_jaw/parallel_jaw.cfg"}) {
     CAPTURE(name);
@@ -214,7 +215,7 @@ TEST_CASE("Jacobians are what small steps of the DOFs do") {
       const Pose before = s.world.pose(link.body);
       const Eigen::MatrixXd J = dof_jacobian(s.world, s.robot, link.body, before * p_B);
       for (int d = 0; d < q.size(); ++d) {
-        // central differences: off by the square of the step, and by rounding over it
+        // central differences: errors of the square of the step, and of rounding divided by it
         constexpr double step = 1e-6;
         VectorXd at = q;
         at[d] = q[d] + step;
@@ -233,7 +234,7 @@ TEST_CASE("Jacobians are what small steps of the DOFs do") {
   }
 }
 
-TEST_CASE("a body that no DOF moves and options out of range are refused") {
+TEST_CASE("a body that no DOF moves and options out of range are rejected") {
   Standing s = stand(planar_arm(-1, 1));
   const auto solve = [&](Id<Body> body, const Pose& pose, const IkOptions& options) {
     inverse_kinematics(s.world, s.robot, body, pose, options);

@@ -11,7 +11,7 @@ static Id<Body> add(World& world, const std::string& name, Mesh mesh, const Eige
   return world.add_body(body_spec(name, std::move(mesh)), BodyKind::object, Pose::translation(at));
 }
 
-TEST_CASE("a falling box stops on the table, however long the fall") {
+TEST_CASE("a falling box stops on the table after a fall of any length") {
   for (const double height : {0.011, 0.5, 1000.0}) {
     World world;
     add(world, "table", moved(box(1, 1, 0.1), {0, 0, -0.05}), {0, 0, 0});
@@ -26,7 +26,7 @@ TEST_CASE("a falling box stops on the table, however long the fall") {
   }
 }
 
-TEST_CASE("a bullet does not tunnel through a sheet, turning as it flies") {
+TEST_CASE("a rotating bullet does not tunnel through a sheet") {
   World world;
   add(world, "sheet", box(1, 1, 1e-5), {0, 0, 0});
   const auto bullet = add(world, "bullet", box(0.001, 0.001, 0.003), {0, 0, 1});
@@ -36,7 +36,7 @@ TEST_CASE("a bullet does not tunnel through a sheet, turning as it flies") {
   CHECK(world.pose(bullet).position.z() > 0);
 }
 
-TEST_CASE("a free way is gone to its exact end") {
+TEST_CASE("a free path is traversed to its exact end") {
   World world;
   const auto block = add(world, "block", box(0.02, 0.02, 0.02), {0, 0, 0});
   add(world, "far", box(0.02, 0.02, 0.02), {0, 1, 0});
@@ -48,7 +48,7 @@ TEST_CASE("a free way is gone to its exact end") {
   CHECK(world.pose(block) == target);
 }
 
-TEST_CASE("a body in contact may slide and leave but not be pushed in") {
+TEST_CASE("a body in contact may slide and separate, but not be pushed in") {
   World world;
   add(world, "table", moved(box(1, 1, 0.1), {0, 0, -0.05}), {0, 0, 0});
   const auto block = add(world, "block", box(0.02, 0.02, 0.02), {0, 0, 0.01 + 5e-5});
@@ -64,7 +64,7 @@ TEST_CASE("a body in contact may slide and leave but not be pushed in") {
 }
 
 TEST_CASE(
-    "of random flights at a heap, none passes through and each stop is within the threshold") {
+    "no random motion through a heap penetrates a body, and each stop is within the threshold") {
   World world;
   add(world, "ball", ball(0.03), {0, 0, 0});
   add(world, "box", box(0.05, 0.03, 0.02), {0.06, 0, 0});
@@ -83,8 +83,8 @@ TEST_CASE(
     world.set_pose(flyer, start);
     const auto result = move_body(world, flyer, target);
     CHECK(colliding_pairs(world).empty());
-    // slow reference: no earlier instant of the path comes within the threshold, sampled a thousand
-    // times
+    // slow reference: at no earlier instant of the path is the gap within the threshold, sampled a
+    // thousand times
     const double t = result.fraction;
     double least = 1;
     const auto own = std::array{flyer};
@@ -100,7 +100,7 @@ TEST_CASE(
   CHECK(stops > 20);
 }
 
-TEST_CASE("a hand approaches along its direction until it touches") {
+TEST_CASE("a hand approaches along its direction until contact") {
   World world;
   const auto hand = world.add_robot(two_finger(), {});
   add(world, "wall", box(1, 0.1, 1), {0, 0.5, 0});
@@ -112,7 +112,7 @@ TEST_CASE("a hand approaches along its direction until it touches") {
   CHECK(approach(world, hand, 1).fraction == 0);
 }
 
-TEST_CASE("a carried robot is not moved by its base") {
+TEST_CASE("the base of a carried robot cannot be moved") {
   World world;
   const auto arm = world.add_robot(two_finger(), {}), hand = world.add_robot(two_finger(), {});
   world.mount(hand, arm, 0, Pose::translation({0.2, 0, 0}));
@@ -128,7 +128,7 @@ TEST_CASE("a move that starts in collision is an error that names the pair") {
                        "moving 'a': the motion starts in collision: a and b", Error);
 }
 
-TEST_CASE("where rounding hides the threshold nothing is moved") {
+TEST_CASE("if rounding exceeds the threshold nothing is moved") {
   World world;
   world.set_contact_threshold(1e-9);
   const auto block = add(world, "block", box(0.02, 0.02, 0.02), {1e6, 0, 0});
@@ -139,7 +139,7 @@ TEST_CASE("where rounding hides the threshold nothing is moved") {
                        Error);
 }
 
-TEST_CASE("bad numbers are refused") {
+TEST_CASE("invalid arguments of a move are rejected") {
   World world;
   const auto hand = world.add_robot(two_finger(), {});
   CHECK_THROWS_WITH_AS(approach(world, hand, -1),
@@ -150,7 +150,7 @@ TEST_CASE("bad numbers are refused") {
       "body 'a': expected a position within 1e+09 m of the origin, got (nan, 0, 0)", Error);
 }
 
-TEST_CASE("a body that overlaps its support within the threshold slides and leaves") {
+TEST_CASE("a body that overlaps its support within the threshold slides and separates") {
   for (const double overlap : {0.0, 1e-17, 2e-5, 0.9e-4}) {
     World world;
     add(world, "table", moved(box(1, 1, 0.1), {0, 0, -0.05}), {0, 0, 0});

@@ -1,5 +1,5 @@
-// Robots from URDF and MJCF in a world: every link stands where the file's own tree puts it, and
-// hands close.
+// Robots from URDF and MJCF in a world: every link has the pose of the file's own tree, and hands
+// close.
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
@@ -43,8 +43,7 @@ Eigen::Matrix4d turn(double angle, const Eigen::Vector3d& axis) {
   return m;
 }
 
-/// The values of all DOFs by name, and by those of the joints that lead them, at random within the
-/// limits.
+/// Values of all DOFs by name, and by those of their leading joints, at random within the limits.
 std::map<std::string, double> move_at_random(World& world, Id<Robot> id, Random& random) {
   const Robot& robot = world.robot(id);
   Eigen::VectorXd q(robot.dofs.size());
@@ -59,7 +58,7 @@ std::map<std::string, double> move_at_random(World& world, Id<Robot> id, Random&
   return named;
 }
 
-// --- URDF, by the recursion over another reader's tree ---
+// --- URDF, by recursion over the tree of another reader ---
 
 Eigen::Matrix4d matrix(const urdf::Pose& pose) {
   double x, y, z, w;
@@ -139,7 +138,7 @@ std::string random_urdf(Random& random, int links) {
   return text + "</robot>";
 }
 
-// --- MJCF, by matrices that are written down beside the text ---
+// --- MJCF, by matrices written together with the text ---
 
 struct RandomModel {
   std::string text;
@@ -157,7 +156,7 @@ struct RandomModel {
   };
   std::vector<Body> bodies;
 
-  /// Attributes of a random turn in one of the ways that MJCF has, and its matrix.
+  /// Attributes of a random rotation in one of the notations of MJCF, and its matrix.
   static std::string random_turn(Random& random, Eigen::Matrix3d& R) {
     const double degree = std::numbers::pi / 180;
     const Eigen::Vector3d v = random_direction(random);
@@ -249,7 +248,7 @@ struct RandomModel {
 
 }  // namespace
 
-TEST_CASE("links of a random URDF tree stand where the file's tree puts them") {
+TEST_CASE("links of a random URDF tree have the poses of the file's tree") {
   TemporaryFolder folder;
   for (int i = 0; i < 10; ++i) {
     Random random(29, static_cast<uint64_t>(i));
@@ -257,13 +256,13 @@ TEST_CASE("links of a random URDF tree stand where the file's tree puts them") {
   }
 }
 
-TEST_CASE("links of our gripper stand where the file's tree puts them") {
+TEST_CASE("links of the test gripper have the poses of the file's tree") {
   ReadOptions options;
   options.packages[""] = "tests/data/urdf";
   check_urdf("tests/data/urdf/gripper.urdf", options, 10);
 }
 
-TEST_CASE("links of the hands of today stand where the file's tree puts them") {
+TEST_CASE("links of current commercial hands have the poses of the file's tree") {
   REQUIRE_SHARED();
   const fs::path folder = shared() / "data/hands-urdf";
   for (const auto* file : {"allegro_hand/allegro_hand_right.urdf", "barrett_hand/bhand_model.urdf",
@@ -271,7 +270,7 @@ TEST_CASE("links of the hands of today stand where the file's tree puts them") {
     check_urdf(folder / file, {}, 5);
 }
 
-TEST_CASE("links of a robot that was written as URDF stand where another reader puts them") {
+TEST_CASE("links of a robot written as URDF have the poses of another reader") {
   TemporaryFolder folder;
   for (const auto* file :
        {"models/hands/barrett/barrett.cfg", "models/hands/parallel_jaw/parallel_jaw.cfg",
@@ -282,8 +281,7 @@ TEST_CASE("links of a robot that was written as URDF stand where another reader 
   }
 }
 
-TEST_CASE(
-    "links of a random URDF tree, written again, stand where the first file's tree puts them") {
+TEST_CASE("links of a random URDF tree, written again, have the poses of the first file's tree") {
   TemporaryFolder folder;
   for (int i = 0; i < 10; ++i) {
     Random random(37, static_cast<uint64_t>(i));
@@ -305,7 +303,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("links of a random MJCF tree stand where the file's tree puts them") {
+TEST_CASE("links of a random MJCF tree have the poses of the file's tree") {
   TemporaryFolder folder;
   for (int i = 0; i < 10; ++i) {
     Random random(31, static_cast<uint64_t>(i));
@@ -322,12 +320,12 @@ TEST_CASE("links of a random MJCF tree stand where the file's tree puts them") {
   }
 }
 
-TEST_CASE("our gripper closes until its fingers meet, and holds what stands between") {
+TEST_CASE("the test gripper closes until its fingers touch, and holds an object between them") {
   ReadOptions options;
   options.packages[""] = "tests/data/urdf";
   World world;
   const auto id = add_robot(world, read_robot("tests/data/urdf/gripper.urdf", options), Pose{});
-  // drawn shut: at its limit already
+  // initially closed: at its limit already
   CHECK(autograsp(world, id).stops == std::vector<DofStop>{DofStop::limit});
   autograsp(world, id, -1);
   CHECK(world.dofs(id)[0] == 0.05);
@@ -339,14 +337,14 @@ TEST_CASE("our gripper closes until its fingers meet, and holds what stands betw
   CHECK(contacts(world).size() > 1);
 }
 
-TEST_CASE("pads that turn back as their levers turn in open after they have closed") {
+TEST_CASE("pads that counter-rotate with their levers open after they have closed") {
   World world;
   const auto id = add_robot(world, read_robot("tests/data/urdf/linkage.urdf"), Pose{});
   const DriveResult closed = autograsp(world, id);
   CHECK(closed.stops == std::vector<DofStop>{DofStop::contact});
   CHECK(colliding_pairs(world).empty());
-  // the pads met where the levers, 8 cm long, have brought each 4.7 cm inward, and then some of
-  // their thickness
+  // the pads touch when the levers, 8 cm long, have moved each pad 4.7 cm inward, minus a part of
+  // its thickness
   const double meeting = std::asin((0.05 - 0.003) / 0.08);
   CHECK(world.dofs(id)[0] == doctest::Approx(meeting).epsilon(2e-3));  // the contact threshold
   const DriveResult opened = open_hand(world, id);
@@ -354,7 +352,7 @@ TEST_CASE("pads that turn back as their levers turn in open after they have clos
   CHECK(world.dofs(id)[0] == 0);
 }
 
-TEST_CASE("our hand closes without self-collision") {
+TEST_CASE("the test hand closes without self-collision") {
   World world;
   const auto id = add_robot(world, read_robot("tests/data/mjcf/hand.mjcf"), Pose{});
   CHECK(colliding_pairs(world).empty());
@@ -362,7 +360,7 @@ TEST_CASE("our hand closes without self-collision") {
   CHECK(colliding_pairs(world).empty());
 }
 
-TEST_CASE("the hands of today close without self-collision") {
+TEST_CASE("current commercial hands close without self-collision") {
   REQUIRE_SHARED();
   const fs::path folder = shared() / "data/hands-urdf";
   const std::pair<const char*, int> hands[] = {{"allegro_hand/allegro_hand_right.urdf", 16},

@@ -15,8 +15,8 @@ namespace {
 
 using std::numbers::pi;
 
-// two fingers whose joints are held by springs alone, and something between them that may be
-// without friction
+// two fingers whose joints are held by springs only, and an object between them, optionally without
+// friction
 struct SpringBench {
   World world;
   Id<Robot> hand;
@@ -59,7 +59,7 @@ double energy(const Robot& robot, int chain, double q, double first, double seco
   return 0.5 * (inner.spring * a * a + outer.spring * b * b);
 }
 
-// The least energy of a finger over postures near its own that do not collide: slow and obvious.
+// The least energy of a finger over nearby postures without collision: brute-force reference.
 double min_energy_nearby(const SpringBench& bench, int chain, double q, double reach) {
   World world = bench.world;
   const int cells = 100;
@@ -84,7 +84,7 @@ double min_energy_nearby(const SpringBench& bench, int chain, double q, double r
 
 }  // namespace
 
-TEST_CASE("without friction a finger comes to rest where its springs hold least") {
+TEST_CASE("without friction a finger comes to rest at the minimum of its springs' energy") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> x(-0.01, 0.01), y(0.03, 0.09), k(0.2, 5);
   for (int run = 0; run < cases(30); ++run) {
@@ -92,7 +92,7 @@ TEST_CASE("without friction a finger comes to rest where its springs hold least"
     const auto result = autograsp(bench.world, bench.hand);
     CHECK(result.moved);
     REQUIRE(colliding_pairs(bench.world).empty());
-    CHECK(bench.unrest() <= 1e-5);  // where a drive takes springs for at rest
+    CHECK(bench.unrest() <= 1e-5);  // tolerance of a drive for springs at rest
     for (const int c : {0, 1}) {
       const double q = bench.dofs()[c];
       const double here = energy(bench.robot(), c, q, bench.q(c, 0), bench.q(c, 1));
@@ -103,7 +103,7 @@ TEST_CASE("without friction a finger comes to rest where its springs hold least"
   }
 }
 
-TEST_CASE("with friction the springs' torques are what contacts within their cones can give") {
+TEST_CASE("with friction contact forces within their cones balance the springs' torques") {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> x(-0.01, 0.01), y(0.03, 0.09), k(0.2, 5);
   for (int run = 0; run < cases(30); ++run) {
@@ -115,7 +115,7 @@ TEST_CASE("with friction the springs' torques are what contacts within their con
   }
 }
 
-TEST_CASE("a finger that is opened again follows its tendon back") {
+TEST_CASE("a reopened finger follows its tendon back") {
   for (const char* material : {"frictionless", "plastic", "rubber"}) {
     SpringBench bench({1, 2}, material, {0.004, 0.06, 0});
     autograsp(bench.world, bench.hand);
@@ -131,9 +131,9 @@ TEST_CASE("a finger that is opened again follows its tendon back") {
   }
 }
 
-TEST_CASE("the weaker of two joints gives way more") {
-  // a tip that meets a wall without friction: the joints' torques are as their levers, so
-  // deviations as levers over stiffness
+TEST_CASE("the weaker of two joints yields more") {
+  // a tip against a frictionless wall: the ratio of the joints' torques is that of their levers, so
+  // deviations are levers over stiffness
   const auto deviations = [](double first, double second) {
     SpringBench bench({first, second}, "frictionless", {0.005, 0.09, 0}, box(0.03, 0.01, 0.05));
     const auto result = autograsp(bench.world, bench.hand);
@@ -148,7 +148,7 @@ TEST_CASE("the weaker of two joints gives way more") {
   CHECK(weak_root[0] / weak_root[1] > 3 * weak_tip[0] / weak_tip[1]);
 }
 
-TEST_CASE("closing a hand on springs is the same wherever its world stands, and each time") {
+TEST_CASE("closing a hand on springs is repeatable and does not depend on the pose of its world") {
   SpringBench bench({1, 2}, "plastic", {0.004, 0.06, 0}), again = bench, moved = bench;
   const Pose X(Eigen::Quaterniond(Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized())),
                {0.3, -0.2, 0.1});
@@ -156,12 +156,12 @@ TEST_CASE("closing a hand on springs is the same wherever its world stands, and 
   moved.world.set_pose(moved.object, X * moved.world.pose(moved.object));
   for (SpringBench* b : {&bench, &again, &moved}) autograsp(b->world, b->hand);
   CHECK(bench.world.hash() == again.world.hash());
-  // the threshold lets gaps differ by 0.1 mm, on fingers of 50 mm
+  // gaps within the threshold differ by 0.1 mm, on fingers of 50 mm
   for (const int c : {0, 1})
     for (const int j : {0, 1}) CHECK(std::abs(bench.q(c, j) - moved.q(c, j)) < 0.005);
 }
 
-TEST_CASE("a drive that is to stop at a touch stops where springs would go on") {
+TEST_CASE("a drive with stop_at_contact stops where springs would continue") {
   SpringBench bench({1, 2}, "frictionless", {0.004, 0.06, 0});
   const auto result = autograsp(bench.world, bench.hand, 1, {.stop_at_contact = true});
   CHECK(result.stops[0] == DofStop::contact);

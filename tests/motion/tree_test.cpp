@@ -1,4 +1,4 @@
-// Robots as trees: links of several joints, whose frames stand anywhere.
+// Robots as trees: links of several joints, with arbitrary frames.
 #include <array>
 #include <random>
 
@@ -19,7 +19,7 @@ Pose random_pose(std::mt19937& random) {
   return {q.normalized(), {0.1 * unit(random), 0.1 * unit(random), 0.1 * unit(random)}};
 }
 
-// links of no, one or two random joints, each on the base or on a random link before it
+// links of zero, one or two random joints, each on the base or on a random link before it
 RobotSpec random_tree(std::mt19937& random, int links) {
   std::uniform_real_distribution<double> unit(-1, 1);
   RobotSpec robot;
@@ -67,7 +67,7 @@ Eigen::Matrix4d slow_link(const RobotSpec& robot, const Eigen::VectorXd& q, int 
 
 }  // namespace
 
-TEST_CASE("links of a tree stand where the product of all motions before them puts them") {
+TEST_CASE("links of a tree have the poses of the product of all motions before them") {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int round = 0; round < 20; ++round) {
@@ -87,7 +87,7 @@ TEST_CASE("links of a tree stand where the product of all motions before them pu
   }
 }
 
-TEST_CASE("a joint moves the links that turning it moves") {
+TEST_CASE("a joint moves exactly the links behind it") {
   std::mt19937 random(2);
   const RobotSpec spec = random_tree(random, 12);
   World world;
@@ -106,7 +106,7 @@ TEST_CASE("a joint moves the links that turning it moves") {
   }
 }
 
-TEST_CASE("a hand closes the same wherever its links' frames are") {
+TEST_CASE("closing a hand does not depend on its links' frames") {
   std::mt19937 random(3);
   for (const auto kind : {DofKind::rigid, DofKind::breakaway}) {
     const auto close = [&](const RobotSpec& spec) {
@@ -129,13 +129,13 @@ TEST_CASE("a hand closes the same wherever its links' frames are") {
         if (child.parent == &link - moved.links.data())
           child.joints[0].X_PJ = X_LN.inverse() * child.joints[0].X_PJ;
     }
-    // the same geometry by other products: rounding may end an advance at another place in the
+    // the same geometry by other products: rounding may change the final position within the
     // threshold
     CHECK((close(two_finger(kind)) - close(moved)).cwiseAbs().maxCoeff() < 1e-3);
   }
 }
 
-TEST_CASE("neighbors in a tree never collide, over frames without a shape too") {
+TEST_CASE("neighbors in a tree never collide, also across frames without a shape") {
   RobotSpec spec = two_finger();
   spec.links[0].body.shape = nullptr;
   spec.chain_links_collide = true;

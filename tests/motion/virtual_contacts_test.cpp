@@ -28,14 +28,13 @@ Vector3d normal_of(const VirtualContactSpec& c) { return c.X_LC.rotation * Vecto
 
 }  // namespace
 
-TEST_CASE(
-    "each link of a gripper gets one place, on the side that turns inward, and the palm one") {
+TEST_CASE("each link of a gripper gets one virtual contact, on the inner side, and the palm one") {
   const Stage s = stage();
   const auto sites = find_virtual_contacts(s.world, s.hand);
   REQUIRE(sites.size() == 5);
   for (int i = 0; i < 4; ++i) {
     CHECK(sites[i].link == i);
-    // the fingers turn about z, counter-clockwise from +y seen in their own frames: +y is inward
+    // the fingers turn about z, counter-clockwise from +y in their own frames: +y is inward
     CHECK((normal_of(sites[i]) - Vector3d::UnitY()).norm() < 1e-12);
     CHECK(sites[i].X_LC.position.y() == doctest::Approx(0.005));
     CHECK(sites[i].edges.cols() == 8);
@@ -46,22 +45,23 @@ TEST_CASE(
   CHECK((sites[4].X_LC.position - Vector3d(0, -0.006, 0)).norm() < 1e-12);
 }
 
-TEST_CASE("a place is the center of what its link sweeps") {
-  // A face that turns about an axis sweeps in proportion to the distance r from it. Of the two
-  // ends, half of height h goes forward, in proportion to the height. Per width, over r from `near`
-  // to `far`:
+TEST_CASE("a virtual contact is at the center of the volume that its link sweeps") {
+  // A face that turns about an axis sweeps in proportion to the distance r from it. Of the two end
+  // faces, half of the height h moves forward, in proportion to the height. Per width, over r from
+  // `near` to `far`:
   const Stage s = stage();
   const auto sites = find_virtual_contacts(s.world, s.hand);
   const double near = 0.003, far = 0.047, h = 0.005;
   const double swept = (far * far - near * near) / 2 + 2 * h * h / 2;
   const double moment = (far * far * far - near * near * near) / 3 + (near + far) * h * h / 2;
-  // pieces of the ends that go forward in part only are counted roughly
+  // triangles of the end faces that move forward only in part are approximated
   CHECK(std::abs(sites[0].X_LC.position.x() - (moment / swept - 0.05)) < 1e-5);
   CHECK(std::abs(sites[0].X_LC.position.z()) < 1e-12);
 }
 
 TEST_CASE(
-    "places lie on the surface and face out of it, of round links too, wherever the hand stands") {
+    "virtual contacts lie on the surface with outward normals, also for round links and in any "
+    "pose of the hand") {
   RobotSpec spec = two_finger();
   link_of(spec, 0, 1).body = body_spec("gripper_chain0_link1", moved(ball(0.01, 3), {-0.02, 0, 0}));
   Random random(2, 0);
@@ -88,7 +88,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("several places of a link stand in a row along it, in equal shares") {
+TEST_CASE("several virtual contacts of a link lie in a row along it, in equal shares") {
   const Stage s = stage();
   const auto sites = find_virtual_contacts(s.world, s.hand, {.count_per_link = 3, .palm = false});
   REQUIRE(sites.size() == 12);
@@ -100,7 +100,7 @@ TEST_CASE("several places of a link stand in a row along it, in equal shares") {
   }
 }
 
-TEST_CASE("what does not move has no place, and a robot that does not close has none at all") {
+TEST_CASE("fixed links have no virtual contact, and a robot that does not close has none at all") {
   RobotSpec spec = two_finger();
   spec.dofs[1].default_velocity = 0;
   Stage s = stage(spec);
@@ -114,8 +114,8 @@ TEST_CASE("what does not move has no place, and a robot that does not close has 
   CHECK(find_virtual_contacts(s.world, s.hand).size() == 4);
 }
 
-TEST_CASE("the palm may be a link: of what stays where it is, the nearest to the approach point") {
-  // the base goes on an arm: a forearm below it, and a wrist between them that does not close
+TEST_CASE("the palm may be a link: the fixed one nearest to the approach point") {
+  // the base becomes an arm: a forearm below the palm, connected by a wrist that does not close
   RobotSpec spec = two_finger();
   JointSpec joint;
   joint.dof = 2;
@@ -136,7 +136,8 @@ TEST_CASE("the palm may be a link: of what stays where it is, the nearest to the
   CHECK((sites[4].X_LC.position - Vector3d(0, -0.006, 0)).norm() < 1e-12);
 }
 
-TEST_CASE("a finger that closes the other way has its places on the other side") {
+TEST_CASE(
+    "a finger that closes in the other direction has its virtual contacts on the other side") {
   RobotSpec spec = two_finger();
   for (auto& dof : spec.dofs) dof.default_velocity = -1;
   const Stage s = stage(spec);
@@ -145,7 +146,7 @@ TEST_CASE("a finger that closes the other way has its places on the other side")
   CHECK((normal_of(sites[0]) + Vector3d::UnitY()).norm() < 1e-12);
 }
 
-TEST_CASE("a sliding jaw has its place in the middle of the face that goes forward") {
+TEST_CASE("a sliding jaw has its virtual contact at the center of its front face") {
   RobotSpec spec = two_finger();
   spec.links = {spec.links[0], spec.links[2]};
   for (const int l : {0, 1}) {
@@ -160,7 +161,7 @@ TEST_CASE("a sliding jaw has its place in the middle of the face that goes forwa
   CHECK((sites[0].X_LC.position - Vector3d(-0.025, 0, 0.005)).norm() < 1e-12);
 }
 
-TEST_CASE("mu is that of the link's material and the one to be grasped") {
+TEST_CASE("mu is that of the materials of the link and of the grasped object") {
   Stage s = stage();
   const auto mu = [&](const char* against) {
     return find_virtual_contacts(s.world, s.hand, {.object_material = against})[0].mu;
@@ -172,15 +173,14 @@ TEST_CASE("mu is that of the link's material and the one to be grasped") {
                        "virtual contacts: count_per_link: expected 1 to 100, got 0", Error);
 }
 
-TEST_CASE(
-    "a hand that was given none has those that are found, one that was given some has these") {
+TEST_CASE("virtual contacts are found if none were given, and otherwise those given are used") {
   Stage s = stage();
   CHECK(virtual_contacts(s.world, s.hand).size() == 5);
   s.world.set_virtual_contacts(s.hand, std::make_shared<std::vector<VirtualContactSpec>>());
   CHECK(virtual_contacts(s.world, s.hand).empty());
 }
 
-TEST_CASE("a real contact is marked on the link's side, facing what it touches") {
+TEST_CASE("a real contact is marked on the link's side, facing the touched body") {
   Stage s = stage();
   BodySpec cube = body_spec("cube", box(0.03, 0.03, 0.03));
   const auto object = s.world.add_body(cube, BodyKind::object, Pose::translation({0, 0.06, 0}));
@@ -194,7 +194,7 @@ TEST_CASE("a real contact is marked on the link's side, facing what it touches")
       const auto site = marked(s.world, s.hand, c);
       const auto id = s.world.robot(s.hand).body_of(site.link);
       const Body& link = s.world.body(id);
-      // no farther from its link than a contact is wide, and out of it means into the cube
+      // at most one contact threshold from its link; the outward normal points into the cube
       CHECK(closest_point(*link.shape, site.X_LC.position).distance <= 1e-9);
       const Vector3d p_W = s.world.pose(id) * site.X_LC.position,
                      n_W = s.world.pose(id).rotation * normal_of(site);

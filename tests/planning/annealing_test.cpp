@@ -11,7 +11,7 @@ using namespace clench::test;
 
 namespace {
 
-// the same energy, deaf to bounds
+// the same energy, ignoring bounds
 struct Unbounded : Energy {
   EnergyPtr inner;
   explicit Unbounded(EnergyPtr energy) : inner(std::move(energy)) {}
@@ -47,7 +47,7 @@ bool same(const Annealing& a, const Annealing& b) {
 
 }  // namespace
 
-TEST_CASE("a chain does not depend on how its steps are cut, on bounds, or on threads") {
+TEST_CASE("a chain does not depend on the division of its steps, on bounds, or on threads") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   TestChain whole = chain(scene, 7), cut = chain(scene, 7), unbounded = chain(scene, 7, false);
   CHECK(whole.search->run(600) == 600);
@@ -67,8 +67,8 @@ TEST_CASE("a chain does not depend on how its steps are cut, on bounds, or on th
 }
 
 TEST_CASE(
-    "steps that are counted were legal, and every state that is kept is free of collision and "
-    "within the ranges") {
+    "every counted step is collision-free, and every stored state is collision-free and within the "
+    "ranges") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   TestChain c = chain(scene, 1);
   CHECK(c.search->run(2000) == 2000);
@@ -89,7 +89,7 @@ TEST_CASE(
   CHECK(c.search->best().states()[0].energy < c.search->first_energy() / 2);
 }
 
-TEST_CASE("the mean of neighbors drawn with a target lies on its side, and fixed variables stay") {
+TEST_CASE("the mean of neighbors is shifted towards a target, and fixed variables stay") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   World world = scene.world;
   SearchSpace space(scene.robot(), scene.state());
@@ -104,7 +104,7 @@ TEST_CASE("the mean of neighbors drawn with a target lies on its side, and fixed
     if (watched) ++count;
     return 0.0;
   });
-  // hot: jumps are long
+  // high temperature: jumps are long
   Annealing search(world, {scene.hand, scene.object}, space, std::move(energy),
                    {.schedule = {.first_step = 0}, .collisions = false});
   watched = &search;
@@ -116,7 +116,7 @@ TEST_CASE("the mean of neighbors drawn with a target lies on its side, and fixed
     if (i != at) CHECK(search.values()[i] == start[i]);
 }
 
-TEST_CASE("what is avoided is not come near to") {
+TEST_CASE("the search stays away from states to avoid") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   TestChain c = chain(scene, 2);
   c.search->run(500);
@@ -131,11 +131,11 @@ TEST_CASE("what is avoided is not come near to") {
                                      true) >= 0.2);
 }
 
-TEST_CASE("a chain that cannot move says how many steps it took") {
+TEST_CASE("a chain that cannot move reports its number of steps") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   World world = scene.world;
   SearchSpace space(scene.robot(), scene.state());
-  // the base within the mug
+  // the base inside the mug
   for (const char* name : {"Tx", "Ty", "Tz"}) {
     Variable& v = space.variables()[find_variable(space.variables(), name)];
     v.min = v.value = 0, v.max = 1e-6;
@@ -148,7 +148,7 @@ TEST_CASE("a chain that cannot move says how many steps it took") {
   CHECK(search.counts().stuck == 10000);
 }
 
-TEST_CASE("the five schedules are the original's, and their temperatures fall") {
+TEST_CASE("the five schedules equal the original's, and their temperatures decrease") {
   const AnnealingSchedule usual = annealing_schedule("default");
   // planners.md, section 5: T0 exp(-YC k^(1/YD)) with 1e6, 7, 8 at 30000
   CHECK(usual.neighbor_temperature(30000) ==
@@ -164,7 +164,7 @@ TEST_CASE("the five schedules are the original's, and their temperatures fall") 
                        Error);
 }
 
-TEST_CASE("options that make no search are refused") {
+TEST_CASE("invalid options of a search are rejected") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   const auto with = [&](AnnealingOptions options) { chain(scene, 1, true, options); };
   CHECK_THROWS_WITH_AS(with({.schedule = {.t0 = 0}}), "annealing: t0 must be > 0, got 0", Error);
@@ -189,7 +189,7 @@ TEST_CASE("options that make no search are refused") {
                        "threads: expected 1 to 1024, got 0", Error);
 }
 
-TEST_CASE("the best list keeps the best, no two alike") {
+TEST_CASE("the best list keeps the best states, no two of them similar") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   const SearchSpace space(scene.robot(), scene.state());
   BestList list({.size = 2, .distance = 0.1, .radius = 1});
@@ -200,8 +200,8 @@ TEST_CASE("the best list keeps the best, no two alike") {
   };
   CHECK(at(0, 5));
   CHECK(at(1, 4));
-  CHECK_FALSE(at(0.05, 6));  // like a better one
-  CHECK(at(0.05, 3));        // better than the one that it is like
+  CHECK_FALSE(at(0.05, 6));  // similar to a better one
+  CHECK(at(0.05, 3));        // better than the similar one
   CHECK(list.states().size() == 2);
   CHECK(list.states()[0].energy == 3);
   CHECK_FALSE(at(2, 9));

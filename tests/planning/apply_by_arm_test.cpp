@@ -9,7 +9,7 @@
 
 using namespace clench;
 
-TEST_CASE("an arm brings its hand to where a grasp has it, or all stays") {
+TEST_CASE("an arm moves its hand to the pose of a grasp, or nothing moves") {
   World world = build_world(read_world("worlds/puma_barrett_glass.wld", {.root = "."}));
   const auto arm = world.robots()[0], hand = world.robots()[1];
   const auto glass = world.find_body("glass");
@@ -20,7 +20,7 @@ TEST_CASE("an arm brings its hand to where a grasp has it, or all stays") {
   };
   const Eigen::VectorXd before = world.dofs(arm);
 
-  // it stands there: nothing moves
+  // already at the pose: nothing moves
   const Pose X_WB = world.pose(world.robot(hand).base);
   apply_by_arm(world, grasp, hand, glass);
   CHECK(world.dofs(arm) == before);
@@ -29,7 +29,7 @@ TEST_CASE("an arm brings its hand to where a grasp has it, or all stays") {
   world.set_pose(glass, Pose::translation({0.01, 0.02, 0}) * world.pose(glass));
   apply_by_arm(world, grasp, hand, glass);
   CHECK(world.dofs(arm) != before);
-  // ten times what inverse kinematics is asked for
+  // ten times the tolerance of inverse kinematics
   CHECK((offset().position - grasp.X_OH->position).norm() < 1e-8);
   CHECK((offset().inverse() * *grasp.X_OH).angle() < 1e-8);
 

@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// a term that counts how often it is asked
+// a term that counts its evaluations
 struct Constant : Energy {
   double x, low;
   int* asked;
@@ -38,7 +38,7 @@ EnergySum sum_of(std::vector<std::pair<double, double>> terms, int* asked) {
   return EnergySum(std::move(out));
 }
 
-// the hand somewhere about the object, where nothing collides
+// the hand in a random pose near the object, without collision
 void place_at_random(HandScene& scene, Random& random) {
   const SearchSpace space(scene.robot(), scene.state(), {.posture = PostureKind::dofs});
   do {
@@ -52,7 +52,7 @@ void place_at_random(HandScene& scene, Random& random) {
 
 }  // namespace
 
-TEST_CASE("a sum stops where what is still to come cannot bring it below the bound") {
+TEST_CASE("a sum stops when its remaining terms cannot bring it below the bound") {
   World world;
   int asked = 0;
   EnergySum sum = sum_of({{1, 2}, {0.5, 4}, {2, 3}}, &asked);
@@ -65,7 +65,7 @@ TEST_CASE("a sum stops where what is still to come cannot bring it below the bou
   CHECK_THROWS_WITH_AS(sum_of({{-1, 2}}, &asked), "energy: a weight must be >= 0, got -1", Error);
 }
 
-TEST_CASE("a term is kept within its bounds") {
+TEST_CASE("a term is clamped to its bounds") {
   World world;
   int asked = 0;
   const auto within = [&](double low, double high) {
@@ -77,13 +77,13 @@ TEST_CASE("a term is kept within its bounds") {
   CHECK_THROWS_WITH_AS(within(2, 1), "energy: expected low <= high, got 2 and 1", Error);
 }
 
-TEST_CASE("a function that gives no number is refused") {
+TEST_CASE("a function that returns no number is rejected") {
   World world;
   EnergyFunction nothing([] { return std::nan(""); });
   CHECK_THROWS_WITH_AS(nothing.value(world, 0), "energy: expected a number, got nan", Error);
 }
 
-TEST_CASE("contact energy is the mean over all sites, by brute force over all triangles") {
+TEST_CASE("contact energy is the mean over all sites, compared with a search of all triangles") {
   HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   const HandAndObject who{scene.hand, scene.object};
   ContactEnergy energy(scene.world, who, {});
@@ -102,13 +102,14 @@ TEST_CASE("contact energy is the mean over all sites, by brute force over all tr
     const double expected = sum / static_cast<double>(sites.size());
     // twenty sums of numbers of a few hundred
     CHECK(energy.value(scene.world) == doctest::Approx(expected).epsilon(1e-12));
-    // a bound changes nothing at or below it
+    // a bound changes no value at or below it
     CHECK(energy.value(scene.world, expected * (1 + 1e-9)) == energy.value(scene.world));
     CHECK(energy.value(scene.world, expected / 2) > expected / 2);
   }
 }
 
-TEST_CASE("energies move with the world and remember nothing that counts") {
+TEST_CASE(
+    "energies are invariant under motions of the world and do not depend on earlier evaluations") {
   HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   const HandAndObject who{scene.hand, scene.object};
   Random random(4);
@@ -129,7 +130,7 @@ TEST_CASE("energies move with the world and remember nothing that counts") {
 }
 
 TEST_CASE(
-    "a closing energy is minus the measures of the closed grasp, and leaves the world as it was") {
+    "a closing energy is minus the measures of the closed grasp, and leaves the world unchanged") {
   HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   const HandAndObject who{scene.hand, scene.object};
   Random random(5);
@@ -153,7 +154,7 @@ TEST_CASE(
                        "energy: approach must be >= 0, got inf", Error);
 }
 
-TEST_CASE("constraints are 0 where they hold and grow with how far they do not") {
+TEST_CASE("constraints are 0 if they are satisfied and grow with their violation") {
   HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   scene.world.set_pose(scene.hand, Pose::translation({0, 0, 0.5}));
   const Vector3d z =
@@ -166,7 +167,7 @@ TEST_CASE("constraints are 0 where they hold and grow with how far they do not")
   CHECK(reach_energy(scene.hand, at + Vector3d(0, 0.3, 0), 0.1)->value(scene.world) ==
         doctest::Approx(200));
   CHECK(keep_out_energy(scene.hand, {}, {5, 5, 5}, {6, 6, 6})->value(scene.world) == 0);
-  // a half space that the whole hand is in
+  // a half space that contains the complete hand
   CHECK(keep_out_energy(scene.hand, {}, {-5, -5, -5}, {5, 5, 0.6})->value(scene.world) > 100);
   CHECK(penetration_energy(scene.world, scene.hand)->value(scene.world) == 0);
   CHECK_THROWS_WITH_AS(approach_cone_energy(scene.hand, {0, 0, 0}, 0.1),
@@ -180,7 +181,7 @@ TEST_CASE("constraints are 0 where they hold and grow with how far they do not")
                        "energy: points: expected 1 to 10000, got 0", Error);
 }
 
-TEST_CASE("clearance and penetration agree with what they measure on boxes") {
+TEST_CASE("clearance and penetration agree with closed formulas on boxes") {
   World world;
   HandScene scene = hand_scene("parallel_jaw/parallel_jaw.cfg", "cube.iv");
   const auto floor = scene.world.add_body(read_body("models/obstacles/floor.iv", {}),
@@ -194,13 +195,13 @@ TEST_CASE("clearance and penetration agree with what they measure on boxes") {
   CHECK(clearance_energy(who, gap + 0.01)->value(scene.world) == doctest::Approx(10));
   CHECK_THROWS_WITH_AS(clearance_energy(who, -1), "energy: distance must be >= 0 [m], got -1",
                        Error);
-  // sunk into the floor's top by 5 mm
+  // 5 mm inside the top of the floor
   const EnergyPtr penetration = penetration_energy(scene.world, scene.hand, 2000);
   const Pose X = scene.world.pose(scene.robot().base);
   scene.world.set_pose(scene.object, Pose::translation({3, 0, 0}));
   scene.world.set_pose(scene.hand, Pose{X.rotation, X.position - Vector3d(0, 0, gap + 0.005)});
   CHECK(penetration->value(scene.world) > 4.9);
-  // a rod right through the palm has no corner inside, nor the palm one in the rod
+  // a rod through the palm: neither contains a corner of the other
   scene.world.set_pose(scene.hand, X);
   const Body& palm = scene.world.body(scene.robot().base);
   const Bounds box = palm.shape->bounds();
@@ -211,7 +212,7 @@ TEST_CASE("clearance and penetration agree with what they measure on boxes") {
   CHECK(penetration->value(scene.world) > 0.9);
 }
 
-TEST_CASE("energies of 600 states of Barrett and mug are the original's") {
+TEST_CASE("energies of 600 states of Barrett and mug equal the original's") {
   REQUIRE_SHARED();
   const auto data = measured("energy_barrett_mug");
   const auto models = shared() / "data/graspit-xml/models";
@@ -231,7 +232,7 @@ TEST_CASE("energies of 600 states of Barrett and mug are the original's") {
     CHECK(collides(world) != state["legal"].get<bool>());
     if (!state["legal"].get<bool>()) continue;
     ++legal;
-    // it keeps six digits of a vertex
+    // the original keeps six digits of a vertex
     CHECK(contact.value(world) ==
           doctest::Approx(state["energy"]["CONTACT_ENERGY"].get<double>()).epsilon(1e-5));
     if (!state["energy"].contains("GUIDED_AUTO_GRASP_QUALITY_ENERGY")) continue;
@@ -244,7 +245,7 @@ TEST_CASE("energies of 600 states of Barrett and mug are the original's") {
   CHECK(closed == 30);
 }
 
-TEST_CASE("an energy that has nothing to measure is refused") {
+TEST_CASE("an energy without anything to evaluate is rejected") {
   HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   CHECK_THROWS_WITH_AS(ContactEnergy(scene.world, {scene.hand, scene.robot().base}, {}),
                        "energy of 'barrett' and 'barrett_base': the object is a part of a robot",

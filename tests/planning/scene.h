@@ -1,4 +1,4 @@
-// A hand of ours and an object, for tests of planning.
+// A shipped hand and an object, for tests of planning.
 #pragma once
 #include "clench/io/read.h"
 #include "clench/model/build.h"

@@ -13,7 +13,7 @@ using std::numbers::pi;
 
 namespace {
 
-// values within the ranges, circular ones included
+// values within the ranges, including circular ones
 Values random_values(const SearchSpace& space, Random& random) {
   Values out(space.variables().size());
   for (int i = 0; i < out.size(); ++i)
@@ -29,7 +29,7 @@ double gap(const HandState& a, const HandState& b) {
 
 }  // namespace
 
-TEST_CASE("values of a state give that state again, in every space") {
+TEST_CASE("values of a state reproduce that state, in every space") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   Random random(1);
   for (const auto position : {PositionKind::complete, PositionKind::axis_angle,
@@ -38,12 +38,12 @@ TEST_CASE("values of a state give that state again, in every space") {
       SearchSpace space(scene.robot(), scene.state(), {.position = position, .posture = posture});
       for (int i = 0; i < 50; ++i) {
         const HandState state = space.state(random_values(space, random));
-        // postures that were cut at the limits are no sum of eigengrasps any more
+        // postures clamped at the limits are no longer sums of eigengrasps
         if (posture == PostureKind::eigengrasps)
           space = SearchSpace(scene.robot(), state,
                               {.position = position, .posture = PostureKind::fixed});
         const HandState again = space.state(space.values(state));
-        // a few roundings of lengths of a meter; angles near pi lose half the digits
+        // a few rounding errors of lengths of a meter; angles near pi lose half the digits
         CHECK(gap(state, again) < 1e-7);
         if (posture == PostureKind::eigengrasps) break;
       }
@@ -51,7 +51,7 @@ TEST_CASE("values of a state give that state again, in every space") {
 }
 
 TEST_CASE(
-    "an axis-angle pose is a translation and a turn about an axis, behind the approach frame") {
+    "an axis-angle pose is a translation and a rotation about an axis, behind the approach frame") {
   const HandScene scene = hand_scene("human/human16.cfg", "flask.iv");
   SearchSpace space(scene.robot(), scene.state(), {.posture = PostureKind::fixed});
   Values v(6);
@@ -63,7 +63,7 @@ TEST_CASE(
   CHECK(X_RA.angle() == doctest::Approx(0.7));
 }
 
-TEST_CASE("a turn about z has no pole: theta is 0 or pi there") {
+TEST_CASE("a rotation about z has no singularity: theta is 0 or pi there") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   SearchSpace space(scene.robot(), scene.state(), {.posture = PostureKind::fixed});
   for (const double angle : {0.5, -0.5}) {
@@ -76,8 +76,8 @@ TEST_CASE("a turn about z has no pole: theta is 0 or pi there") {
 }
 
 TEST_CASE(
-    "on the ellipsoid the approach direction is the inward normal, and dist is how far off the "
-    "surface it is") {
+    "on the ellipsoid the approach direction is the inward normal, and dist is the distance from "
+    "the surface") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   const Vector3d semi(0.08, 0.05, 0.16);
   SearchSpace space(
@@ -96,7 +96,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "an approach of a distance goes straight along the approach direction from where the hand is") {
+    "an approach distance moves the hand along the approach direction from its current pose") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   SearchSpace space(scene.robot(), scene.state(),
                     {.position = PositionKind::approach, .posture = PostureKind::fixed});
@@ -107,7 +107,7 @@ TEST_CASE(
   CHECK(moved.angle() < 1e-12);
 }
 
-TEST_CASE("states are as far apart as their position, rotation or posture, whichever is most") {
+TEST_CASE("the distance of states is the largest of position, rotation and posture") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   SearchSpace space(scene.robot(), scene.state(), {});
   const HandState a = scene.state();
@@ -125,7 +125,7 @@ TEST_CASE("states are as far apart as their position, rotation or posture, which
   CHECK(space.distance(a, b, 0.1, false) == doctest::Approx(0));
 }
 
-TEST_CASE("what variables cannot be is refused by name") {
+TEST_CASE("impossible settings of variables are rejected by name") {
   CHECK_THROWS_WITH_AS(check_variable({.name = "Tx", .min = 2, .max = 1}),
                        "search variable 'Tx': min 2 exceeds max 1", Error);
   CHECK_THROWS_WITH_AS(check_variable({.name = "Tx", .min = 0, .max = 1, .value = 2}),
@@ -148,7 +148,7 @@ TEST_CASE("what variables cannot be is refused by name") {
                        "search space: semi-axes: expected lengths > 0 [m], got 0", Error);
 }
 
-TEST_CASE("circular variables come round, others stop") {
+TEST_CASE("circular variables wrap around, and others are clamped") {
   const Variable turn{.name = "phi", .min = -pi, .max = pi, .circular = true};
   CHECK(inside(turn, pi + 0.1) == doctest::Approx(-pi + 0.1));
   CHECK(inside(turn, -pi - 0.1) == doctest::Approx(pi - 0.1));

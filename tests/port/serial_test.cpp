@@ -32,7 +32,7 @@ std::string every_byte() {
 
 }  // namespace
 
-TEST_CASE("a serial line carries every byte unchanged, both ways") {
+TEST_CASE("a serial line carries every byte unchanged, in both directions") {
   Pty pty = open_pty();
   Stream line = open_serial({.path = pty.path, .baud = 115200});
   REQUIRE(line.write(every_byte()) == 256);
@@ -41,7 +41,7 @@ TEST_CASE("a serial line carries every byte unchanged, both ways") {
   CHECK(read_line_bytes(line, 256) == every_byte());
 }
 
-TEST_CASE("a serial line is set to any rate, and gets its own back") {
+TEST_CASE("a serial line is set to any rate, and gets its own rate back") {
   Pty pty = open_pty();
   const Descriptor witness(::open(pty.path.c_str(), O_RDWR | O_NOCTTY));
   const int before = baud_of(witness.number());
@@ -53,7 +53,7 @@ TEST_CASE("a serial line is set to any rate, and gets its own back") {
   }
 }
 
-TEST_CASE("what a line received before it was opened is dropped") {
+TEST_CASE("bytes that a line received before it was opened are dropped") {
   Pty pty = open_pty();
   REQUIRE(pty.stream.write("stale") == 5);
   Stream line = open_serial({.path = pty.path});
@@ -61,7 +61,8 @@ TEST_CASE("what a line received before it was opened is dropped") {
   CHECK(read_line_bytes(line, 5) == "fresh");
 }
 
-TEST_CASE("programs open a pseudo-terminal again and again, and are unplugged once it is closed") {
+TEST_CASE(
+    "programs can reopen a pseudo-terminal repeatedly, and are disconnected once it is closed") {
   auto pty = std::make_unique<Pty>(open_pty());
   for (int i = 0; i < 3; ++i) {
     Stream line = open_serial({.path = pty->path});
@@ -82,7 +83,7 @@ TEST_CASE("programs open a pseudo-terminal again and again, and are unplugged on
   CHECK(!std::filesystem::exists(path));
 }
 
-TEST_CASE("faults of serial lines are named") {
+TEST_CASE("faults of serial lines are reported") {
   Pty pty = open_pty();
   const auto fault = [](const SerialOptions& options) -> std::string {
     try {

@@ -49,7 +49,8 @@ void check_talk(Acceptor& acceptor, Stream client) {
 
 }  // namespace
 
-TEST_CASE("clients and servers talk over TCP, of both families, and over a Unix socket") {
+TEST_CASE(
+    "clients and servers communicate by TCP, of both address families, and by a Unix socket") {
   for (const HostAddress& host : {HostAddress{"127.0.0.1"}, HostAddress{"::1"}}) {
     if (host.address == "::1" && access("/proc/net/if_inet6", R_OK) != 0) continue;
     Acceptor acceptor = Acceptor::tcp(host, 0);
@@ -69,7 +70,7 @@ TEST_CASE("clients and servers talk over TCP, of both families, and over a Unix 
   CHECK(!acceptor.accept().has_value());
 }
 
-TEST_CASE("a socket file is replaced if no program listens to it, and only then") {
+TEST_CASE("a socket file is replaced if and only if no program listens to it") {
   const std::string path = socket_path();
   {
     Acceptor acceptor = Acceptor::unix_socket(path);
@@ -77,7 +78,7 @@ TEST_CASE("a socket file is replaced if no program listens to it, and only then"
                          Error);
     REQUIRE(link(path.c_str(), (path + ".kept").c_str()) == 0);
   }
-  REQUIRE(rename((path + ".kept").c_str(), path.c_str()) == 0);  // as a killed program leaves it
+  REQUIRE(rename((path + ".kept").c_str(), path.c_str()) == 0);  // as left by a killed program
   Acceptor::unix_socket(path).close();
   std::ofstream(path) << "a file";
   CHECK_THROWS_AS(Acceptor::unix_socket(path), Error);
@@ -102,7 +103,7 @@ TEST_CASE("a connection that nobody accepts fails with the system's reason") {
   CHECK(client.connect_error() == ECONNREFUSED);
 }
 
-TEST_CASE("hosts are numeric addresses, or found by name") {
+TEST_CASE("hosts are numeric addresses or names") {
   CHECK(resolve("127.0.0.1", true) == std::vector<HostAddress>{{"127.0.0.1"}});
   CHECK(resolve("::1", true) == std::vector<HostAddress>{{"::1"}});
   CHECK(resolve("localhost", true).front() == HostAddress{"127.0.0.1"});

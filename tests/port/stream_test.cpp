@@ -13,7 +13,7 @@ using namespace clench;
 
 namespace {
 
-// fills until the stream has so many bytes, or has ended
+// fills until the stream contains the given number of bytes, or has ended
 void fill_to(Stream& stream, size_t count) {
   while (stream.received().size() < count && stream.end() == Stream::End::none) {
     pollfd input{stream.descriptor(), POLLIN, 0};
@@ -24,7 +24,7 @@ void fill_to(Stream& stream, size_t count) {
 
 }  // namespace
 
-TEST_CASE("a stream gives the bytes in order, however they are taken") {
+TEST_CASE("a stream returns the bytes in order for any sizes of reads") {
   auto [a, b] = open_pair();
   std::string sent, got;
   uint32_t seed = 1;
@@ -66,7 +66,7 @@ TEST_CASE("a delimiter is found across the pieces in which it arrives") {
 TEST_CASE("a search is linear in the bytes that arrive") {
   auto [a, b] = open_pair();
   const std::string piece(1000, 'x');
-  for (int i = 0; i < 2000; ++i) {  // 2 MB: seconds, if each search began anew
+  for (int i = 0; i < 2000; ++i) {  // 2 MB: seconds if each search started again from the beginning
     REQUIRE(a.write(piece) == piece.size());
     fill_to(b, 1000 * static_cast<size_t>(i + 1));
     REQUIRE(b.find("\n") == std::string_view::npos);
@@ -74,7 +74,7 @@ TEST_CASE("a search is linear in the bytes that arrive") {
   CHECK(b.take(2'000'000).size() == 2'000'000);
 }
 
-TEST_CASE("a full stream takes what fits and goes on once it is read") {
+TEST_CASE("a full stream accepts bytes up to its limit and continues after they are read") {
   auto [a, b] = open_pair();
   const std::string bytes(10'000'000, 'y');
   size_t done = a.write(bytes);
@@ -95,7 +95,8 @@ TEST_CASE("a full stream takes what fits and goes on once it is read") {
   CHECK(got == bytes.size());
 }
 
-TEST_CASE("what the other side sent before it closed is read even after a write has failed") {
+TEST_CASE(
+    "bytes that the other side sent before it closed can be read even after a write has failed") {
   auto [a, b] = open_pair();
   REQUIRE(a.write("last words") == 10);
   a.close();
@@ -108,7 +109,7 @@ TEST_CASE("what the other side sent before it closed is read even after a write 
   CHECK(b.take(100) == "last words");
 }
 
-TEST_CASE("a side that sends no more still receives") {
+TEST_CASE("a side that has ended its output still receives") {
   auto [a, b] = open_pair();
   REQUIRE(a.write("question") == 8);
   REQUIRE(shutdown(a.descriptor(), SHUT_WR) == 0);

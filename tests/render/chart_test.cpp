@@ -29,16 +29,16 @@ int ink_of(const Picture& picture) {
 
 }  // namespace
 
-TEST_CASE("a line's ink is its area, wherever and in which direction it runs") {
+TEST_CASE("the ink of a line is its area, at any position and direction") {
   for (const Vector2f& along : {Vector2f(40, 0), Vector2f(0, 40), Vector2f(24, 32)}) {
     Picture picture = blank_picture(100, 100);
     Canvas(picture, letters()).line({20.3f, 25.7f}, Vector2f(20.3f, 25.7f) + along, 3, black);
-    // 40 x 3 and two half discs; 3 % for edges that are blended by distance
+    // 40 x 3 and two half discs; 3 % tolerance, because edges are blended by distance
     CHECK(ink_of(picture) / 255.0 == doctest::Approx(40 * 3 + M_PI * 1.5 * 1.5).epsilon(0.03));
   }
 }
 
-TEST_CASE("a rectangle's ink is its area to the rounding of bytes, cut off at the edges") {
+TEST_CASE("the ink of a rectangle is its area up to the rounding of bytes, clipped at the edges") {
   Picture picture = blank_picture(50, 40);
   Canvas canvas(picture, letters());
   canvas.rectangle({10.25f, 5.5f}, {20.5f, 15.75f}, black);
@@ -49,12 +49,12 @@ TEST_CASE("a rectangle's ink is its area to the rounding of bytes, cut off at th
   CHECK(ink_of(picture) == 255 * 50 * 40);
 }
 
-TEST_CASE("text runs along its direction and takes the width that it tells") {
+TEST_CASE("text runs along its direction and has the reported width") {
   const float height = 12, width = letters().width("epsilon", height);
   Picture level = blank_picture(200, 200), upright = blank_picture(200, 200);
   Canvas(level, letters()).text({"epsilon", {50, 100}, height}, black);
   Canvas(upright, letters()).text({"epsilon", {100, 150}, height, -Vector2f::UnitY()}, black);
-  // the second is the first turned by a quarter
+  // the second is the first, rotated by a quarter turn
   CHECK(ink_of(level) == doctest::Approx(ink_of(upright)).epsilon(0.01));
   const auto inside = [&](const Picture& p, int x0, int y0, int x1, int y1) {
     int sum = 0;
@@ -67,7 +67,7 @@ TEST_CASE("text runs along its direction and takes the width that it tells") {
   CHECK(inside(upright, 84, 150 - room, 106, 150) == ink_of(upright));
 }
 
-TEST_CASE("an axis holds all values and zero in 2 to 5 steps of 1, 2 or 5") {
+TEST_CASE("an axis spans all values and zero in 2 to 5 steps of 1, 2 or 5") {
   for (const auto& values : {std::vector<double>{0.0876},
                              {-3, 7},
                              {1e-9, 2e-9},
@@ -90,7 +90,7 @@ TEST_CASE("an axis holds all values and zero in 2 to 5 steps of 1, 2 or 5") {
   CHECK(chart_axis({5e-324}).high == 1);
 }
 
-TEST_CASE("a chart is as high as its panels need, and the same bytes every time") {
+TEST_CASE("a chart is as high as its panels require, and byte-identical every time") {
   const Chart chart{.title = "two grasps",
                     .labels = {"one", "two"},
                     .series = {{"epsilon", {0.1, 0.2}}, {"volume", {NAN, -3}}}};
@@ -104,7 +104,7 @@ TEST_CASE("a chart is as high as its panels need, and the same bytes every time"
   CHECK(painted(chart, {.width = 64, .height = 64}).pixels.size() == 3 * 64 * 64);
 }
 
-TEST_CASE("the higher column has more ink, the best is the darkest") {
+TEST_CASE("higher columns have more ink, and the best one is the darkest") {
   const auto ink = [](std::vector<double> values) {
     return ink_of(painted({.series = {{"x", std::move(values)}}}, {.width = 400, .height = 200}));
   };
@@ -112,7 +112,7 @@ TEST_CASE("the higher column has more ink, the best is the darkest") {
   CHECK(ink({1, 0.5}) > ink({1, 0}));
 }
 
-TEST_CASE("nothing, next to nothing and a panel of zeros look different") {
+TEST_CASE("zero, small values and a panel of zeros look different") {
   const auto drawn = [](std::vector<double> values) {
     return painted({.series = {{"x", std::move(values)}}}, {.width = 400, .height = 200}).pixels;
   };
@@ -124,15 +124,15 @@ TEST_CASE("nothing, next to nothing and a panel of zeros look different") {
         ink_of(painted({.series = {{"x", {1e-300, 0}}}}, {.width = 400, .height = 200})));
 }
 
-TEST_CASE("the least column is the darkest where least is best") {
+TEST_CASE("if small values are better, the lowest column is the darkest") {
   Chart chart{.series = {{"effort", {3, 1}}}};
   const Picture largest = painted(chart, {.width = 400, .height = 200});
   chart.series[0].higher_is_better = false;
-  // the darker column is the smaller one now
+  // now the darker column is the smaller one
   CHECK(ink_of(painted(chart, {.width = 400, .height = 200})) < ink_of(largest));
 }
 
-TEST_CASE("a long label costs a chart no more height than a short one in wide columns") {
+TEST_CASE("in wide columns a long label does not increase the height of a chart") {
   const auto height = [](std::string label, size_t items) {
     Chart chart{.labels = std::vector<std::string>(items, "a"),
                 .series = {{"x", std::vector<double>(items, 1)}}};
@@ -140,12 +140,12 @@ TEST_CASE("a long label costs a chart no more height than a short one in wide co
     return painted(chart).height;
   };
   CHECK(height(std::string(300, 'y'), 4) == height("a", 4));
-  // upright ones of narrow columns are as long as 16 letters at most
+  // upright labels of narrow columns have at most 16 letters
   CHECK(height(std::string(300, 'y'), 40) <= height("a", 40) + 150);
   CHECK(height(std::string(300, 'y'), 40) > height("a", 40));
 }
 
-TEST_CASE("labels that only their middles tell apart stay apart when they are too long") {
+TEST_CASE("shortened labels that differ only in the middle stay distinguishable") {
   const std::string front(60, 'a'), back(60, 'b');
   const auto drawn = [&](std::string first, std::string second, size_t items) {
     Chart chart{.labels = std::vector<std::string>(items, front + "3" + back),
@@ -158,14 +158,14 @@ TEST_CASE("labels that only their middles tell apart stay apart when they are to
     CHECK(drawn("1", "2", items) != drawn("2", "1", items));
     CHECK(drawn("1", "2", items) == drawn("1", "2", items));
   }
-  // all alike, one alone, and one that is the beginning of another
+  // equal labels, a single one, and one that is the beginning of another
   CHECK(drawn("3", "3", 3).size() == drawn("1", "2", 3).size());
   CHECK(painted({.labels = {front + back}, .series = {{"x", {1}}}}, {.width = 200}).width == 200);
   CHECK(painted({.labels = {front, front + front}, .series = {{"x", {1, 2}}}}).width == 960);
 }
 
-TEST_CASE("low panels draw within themselves") {
-  // what lies below the last of three panels is as empty as the margin
+TEST_CASE("low panels draw only within themselves") {
+  // the area below the last of three panels is as empty as the margin
   const Chart chart{.labels = {" ", " "}, .series = {{"x", {1, -1}}, {"y", {1, 2}}, {"z", {3, 4}}}};
   for (const int height : {80, 120, 200}) {
     const Picture picture = painted(chart, {.width = 300, .height = height});
@@ -177,7 +177,7 @@ TEST_CASE("low panels draw within themselves") {
   }
 }
 
-TEST_CASE("a chart whose counts do not fit is refused in a sentence") {
+TEST_CASE("a chart with inconsistent counts is rejected in one sentence") {
   const auto refused = [](const Chart& chart, const char* sentence, ChartOptions options = {}) {
     CHECK_THROWS_WITH_AS(draw_chart(chart, options), sentence, Error);
   };
@@ -212,7 +212,7 @@ TEST_CASE("numbers of any size make a chart") {
   CHECK(axis.high == largest);
 }
 
-TEST_CASE("a chart has no more values and letters than anybody can see") {
+TEST_CASE("the numbers of values and letters of a chart are limited") {
   CHECK_THROWS_WITH_AS(draw_chart({.series = {{"x", std::vector<double>(10000, 1)}}}),
                        "chart: expected at most 8192 values per series, got 10000", Error);
   CHECK_THROWS_WITH_AS(

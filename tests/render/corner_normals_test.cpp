@@ -17,7 +17,7 @@ TEST_CASE("a ball is smooth: its normals point away from its center") {
   for (size_t i = 0; i < mesh.triangles.size(); ++i)
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d out = mesh.vertices[mesh.triangles[i][k]] / 2;
-      // facets of 7.5 degrees: their mean leans less than a quarter of that, 0.03 rad
+      // facets of 7.5 degrees: the error of their mean is less than a quarter of that, 0.03 rad
       CHECK(normals[i][k].cast<double>().dot(out) > std::cos(0.03));
     }
 }
@@ -33,8 +33,8 @@ TEST_CASE("a box is sharp: each corner has its face's normal") {
 }
 
 TEST_CASE(
-    "a triangle that runs the wrong way round has the opposite normals, its neighbors keep "
-    "theirs") {
+    "a triangle with reversed orientation has the opposite normals, and its neighbors are "
+    "unaffected") {
   Mesh mesh = ball(1);
   const auto before = normals_of(mesh);
   std::swap(mesh.triangles[100][1], mesh.triangles[100][2]);
@@ -47,7 +47,7 @@ TEST_CASE(
       if (i != 100) CHECK((after[i][k] - before[i][k]).norm() < 1e-5);
 }
 
-TEST_CASE("triangles without area have no normal and disturb no other") {
+TEST_CASE("triangles without area have no normal and do not affect others") {
   Mesh mesh = ball(1);
   const auto before = normals_of(mesh);
   const size_t count = mesh.triangles.size();
@@ -61,7 +61,7 @@ TEST_CASE("triangles without area have no normal and disturb no other") {
 }
 
 TEST_CASE("the center of a huge fan costs no more than its triangles") {
-  // a fan of 200,000: its square would take minutes
+  // a fan of 200,000: quadratic time would take minutes
   Mesh mesh;
   const int count = 200000;
   mesh.vertices.push_back({0, 0, 0.5});

@@ -35,14 +35,14 @@ TEST_CASE("a scene is moved to its center and divided by its radius") {
   double most = 0;
   for (const Corner& corner : list.corners) {
     CHECK(corner.n.norm() == doctest::Approx(1));
-    // (1, 0.5, 0) on a screen is 0.012 + 0.988 x^2.2 as light, in parts of 65535
+    // (1, 0.5, 0) on a screen has the linear brightness 0.012 + 0.988 x^2.2, in units of 1/65535
     CHECK(corner.paint == Paint{65535, 14878, 786, 65535});
     most = std::max<double>(most, corner.p.norm());
   }
   CHECK(most == doctest::Approx(1));
 }
 
-TEST_CASE("meshes are split for light and kept whole for shadows, with the same area") {
+TEST_CASE("meshes are subdivided for light and not for shadows, with the same area") {
   const DrawList list = make_draw_list(one_box());
   REQUIRE(list.solid.size() == 1);
   const Batch& b = list.solid[0];
@@ -55,7 +55,7 @@ TEST_CASE("meshes are split for light and kept whole for shadows, with the same 
         doctest::Approx(expected).epsilon(1e-5));
 }
 
-TEST_CASE("solid, seen-through, marked and background things are kept apart") {
+TEST_CASE("solid, transparent, marked and background objects are in separate runs") {
   Scene scene = one_box();
   scene.meshes.push_back(scene.meshes[0]);
   scene.meshes[1].opacity = 0.5f;
@@ -73,7 +73,7 @@ TEST_CASE("solid, seen-through, marked and background things are kept apart") {
   CHECK(list.marks.count > 0);
   CHECK(list.floor.count == 6 * (floor_lines - 1) * (floor_lines - 1));
   CHECK(list.center == Eigen::Vector3d(5, 6, 7));
-  // no run overlaps another, and all of them are whole triangles
+  // runs do not overlap, and consist of complete triangles
   size_t all = 0;
   for (const auto& run : {list.solid[0], list.clear[0], list.behind[0], list.marks, list.floor}) {
     CHECK(run.count % 3 == 0);
@@ -99,7 +99,7 @@ TEST_CASE("the farthest triangles come first") {
         (list.corners[order[i]].p + list.corners[order[i + 1]].p + list.corners[order[i + 2]].p) /
         3;
     const float distance = (middle - eye).norm();
-    // the middle is rounded in another order here: seven digits of 5
+    // the centroid is rounded in another order here: seven digits of 5
     CHECK(distance <= last + 1e-5f);
     last = distance;
   }
@@ -127,14 +127,14 @@ TEST_CASE("a cone has its apex, its angle and its height") {
   // a needle: thinner than its dot
   cone.half_angle = 0;
   CHECK(widest().second < 0.06);
-  // as flat as can be: still within a few heights
+  // very flat: still within a few heights
   cone.half_angle = 1.57;
   CHECK(widest().second < 2);
 }
 
-TEST_CASE("an arrow holds the volume of its rod and its head, and ends at its tip") {
+TEST_CASE("an arrow has the volume of its rod and its head, and ends at its tip") {
   DrawArrow arrow{.tail = {1, 2, 3}, .tip = {1, 4, 3}, .radius = 0.05};
-  // of the polygon that stands for a circle: an arrow has 24 sides
+  // the circle is a polygon: an arrow has 24 sides
   const double circle = 12 * std::sin(2 * std::numbers::pi / 24);
   for (const double length : {2.0, 0.1}) {
     arrow.tip = arrow.tail + Eigen::Vector3d(0, length, 0);
@@ -154,7 +154,7 @@ TEST_CASE("an arrow holds the volume of its rod and its head, and ends at its ti
   CHECK(arrow_piece(arrow).triangles.empty());
 }
 
-TEST_CASE("what a scene may not hold is refused by name") {
+TEST_CASE("invalid contents of a scene are rejected by name") {
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                huge = std::numeric_limits<double>::max();
   const auto with = [](auto&& change) {
@@ -207,7 +207,7 @@ TEST_CASE("what a scene may not hold is refused by name") {
                        "picture: height of the ground must be a finite number", Error);
 }
 
-TEST_CASE("the largest shape there is has corners that are numbers") {
+TEST_CASE("the largest valid shape has finite corners") {
   Scene scene = one_box();
   scene.meshes[0].shape = Shape::make(box(1e9, 1, 1));
   for (const Corner& corner : make_draw_list(scene).corners) {

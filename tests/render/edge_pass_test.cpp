@@ -16,7 +16,7 @@ namespace {
 
 constexpr int edge_wide = 90, edge_high = 70;
 
-// lines and discs of random colors, which may cover in part
+// lines and discs of random colors, partly transparent
 Picture random_shapes(uint64_t seed, bool clear) {
   Random random(seed);
   Picture out{edge_wide, edge_high, std::vector<uint8_t>(3 * edge_wide * edge_high), {}};
@@ -57,7 +57,7 @@ int largest_difference(const std::vector<uint8_t>& a, const std::vector<uint8_t>
 
 }  // namespace
 
-TEST_CASE("edges smoothed on the graphics card are those of the reference, wherever they go") {
+TEST_CASE("edges smoothed on the graphics card equal the reference, for any target") {
   REQUIRE_PICTURES();
   const GlContext context;
   const GlContext::Entered entered(context);
@@ -76,7 +76,7 @@ TEST_CASE("edges smoothed on the graphics card are those of the reference, where
                      target = gl::make_framebuffer({large}, 0);
     smooth_to(programs.edges, cover, colors, options, {target, 11, 17});
     Picture smoothed = empty_picture(options);
-    // from a corner of the framebuffer, which is larger
+    // at a corner of the framebuffer, which is larger
     read_tile({0, 0, edge_wide, edge_high, 0}, smoothed, {11, 17});
     CHECK(largest_difference(smoothed.pixels, expected.pixels) <= 1);
     CHECK(largest_difference(smoothed.alpha, expected.alpha) <= 1);

@@ -10,7 +10,7 @@ using namespace clench::test;
 
 namespace {
 
-// every vertex, each time
+// all vertices, each time
 Extent plain_extent(const Scene& scene) {
   const auto of = [&](bool background) {
     return ball_around([&](const auto& use) {
@@ -29,7 +29,7 @@ Extent plain_extent(const Scene& scene) {
   return of(true).value_or(Extent{});
 }
 
-// some near, some far from the origin; one in four is background, cones and arrows here and there
+// some near, some far from the origin; one in four is background, with some cones and arrows
 Scene random_scene(Random& random, const std::vector<std::shared_ptr<const Shape>>& shapes) {
   Scene scene;
   const double away = random.uniform() < 0.3 ? 1e7 : 0;
@@ -51,7 +51,7 @@ Scene random_scene(Random& random, const std::vector<std::shared_ptr<const Shape
 
 }  // namespace
 
-TEST_CASE("the extent that is found again is that of every vertex, to the bit") {
+TEST_CASE("the cached extent equals that of all vertices, bit-exactly") {
   Random random(3);
   std::vector<std::shared_ptr<const Shape>> shapes;
   for (const double size : {1e-4, 0.1, 1.0, 1.5})

@@ -86,7 +86,7 @@ GlState current_state() {
   return state;
 }
 
-// as an interface leaves it, and everything else that could spoil a picture
+// typical OpenGL state of a user interface, and all other state that could affect a picture
 void set_odd_state() {
   glEnable(GL_BLEND), glEnable(GL_SCISSOR_TEST), glEnable(GL_STENCIL_TEST), glEnable(GL_CULL_FACE);
   glEnable(GL_POLYGON_OFFSET_FILL);
@@ -112,7 +112,7 @@ void set_odd_state() {
 
 }  // namespace
 
-TEST_CASE("a frame that is read is the picture without labels, for each backdrop") {
+TEST_CASE("a frame that is read back equals the picture without labels, for each backdrop") {
   REQUIRE_PICTURES();
   Renderer renderer;
   Scene scene = glass_beside_box();
@@ -127,7 +127,7 @@ TEST_CASE("a frame that is read is the picture without labels, for each backdrop
     }
 }
 
-TEST_CASE("after bodies, lamp, size and lines have changed, frames are those of a fresh renderer") {
+TEST_CASE("after changes of bodies, lamp, size and lines, frames equal those of a new renderer") {
   REQUIRE_PICTURES();
   Renderer renderer;
   RenderOptions wide = draft_of();
@@ -136,13 +136,13 @@ TEST_CASE("after bodies, lamp, size and lines have changed, frames are those of 
   for (const double shift : {0.0, 0.1, 0.0, -0.4})
     for (const RenderOptions& options : {draft_of(), wide, lined, draft_of()}) {
       const Scene scene = glass_beside_box(shift);
-      renderer.draw_to({}, scene, {.eye = {0, 4, 1}}, options);  // the lamp stands elsewhere
+      renderer.draw_to({}, scene, {.eye = {0, 4, 1}}, options);  // another position of the lamp
       renderer.draw_to({}, scene, frame_eye, options);
       CHECK(renderer.read() == drawn_afresh(scene, options));
     }
 }
 
-TEST_CASE("a mesh is stored once, however often it moves") {
+TEST_CASE("a mesh is stored once for any number of motions") {
   REQUIRE_PICTURES();
   Renderer renderer;
   Scene scene = glass_beside_box();
@@ -155,7 +155,9 @@ TEST_CASE("a mesh is stored once, however often it moves") {
   CHECK(renderer.bytes() == once);
 }
 
-TEST_CASE("a frame in a framebuffer of the caller is the picture, and the caller's state is kept") {
+TEST_CASE(
+    "a frame in a framebuffer of the caller equals the picture, and the caller's state is "
+    "restored") {
   REQUIRE_PICTURES();
   const GlContext context;
   const GlContext::Entered entered(context);
@@ -192,7 +194,7 @@ TEST_CASE("a frame in a framebuffer of the caller is the picture, and the caller
   CHECK(different == 0);
 }
 
-TEST_CASE("frames that cannot be drawn or read are refused") {
+TEST_CASE("frames that cannot be drawn or read are rejected") {
   REQUIRE_PICTURES();
   Renderer renderer;
   const Scene scene = glass_beside_box();

@@ -12,8 +12,8 @@ using namespace clench::test;
 
 namespace {
 
-// widest part of the frame that the vertices reach, 1 being its edge; not finite when one lies
-// behind the eye
+// widest part of the frame that the vertices reach, 1 at its edge; not finite if one is behind the
+// eye
 double reach(const Scene& scene, const Eye& eye, double aspect) {
   const Eigen::Matrix4d to_clip = view_projection(eye, aspect, 1e-3, 1e3);
   double most = 0;
@@ -28,7 +28,7 @@ double reach(const Scene& scene, const Eye& eye, double aspect) {
 
 }  // namespace
 
-TEST_CASE("every vertex lies inside the picture, and the picture is used") {
+TEST_CASE("every vertex is inside the picture, and the picture is used") {
   for (const Eigen::Vector3d& size : {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(5, 0.1, 0.1),
                                       Eigen::Vector3d(0.1, 0.1, 4), Eigen::Vector3d(3, 3, 0.01)})
     for (const double scale : {1e-3, 1.0, 1e3})
@@ -40,13 +40,13 @@ TEST_CASE("every vertex lies inside the picture, and the picture is used") {
         scene.meshes.push_back(
             solid(ball(0.2 * scale), {1, 1, 1}, Pose::translation({2 * scale, scale, 0})));
         const double used = reach(scene, frame_all(scene, aspect), aspect);
-        // a margin of 16 % is expected; 1e-5 for corners kept as floats
+        // a margin of 16 % is expected; 1e-5 for corners stored as floats
         CHECK(used < 0.84 + 1e-5);
         CHECK(used > 0.84 - 1e-5);
       }
 }
 
-TEST_CASE("a view is from above, and a scene far from the origin is framed as one at it") {
+TEST_CASE("a view is from above, and does not depend on the distance of a scene from the origin") {
   Scene scene;
   scene.meshes.push_back(solid(box(1, 2, 3)));
   const Eye here = frame_all(scene, 1.3);
@@ -55,12 +55,12 @@ TEST_CASE("a view is from above, and a scene far from the origin is framed as on
   const Eigen::Vector3d away(1024, -2048, 512);
   scene.meshes[0].X_WM = Pose::translation(away);
   const Eye there = frame_all(scene, 1.3);
-  // whole numbers and halves are added exactly
+  // integers and halves are added exactly
   CHECK((there.eye - here.eye - away).norm() < 1e-9);
   CHECK((there.target - here.target - away).norm() < 1e-9);
 }
 
-TEST_CASE("the view is from that side which shows what is seen through") {
+TEST_CASE("the view is from the side that shows transparent objects") {
   // a wall on the default's side of a glass ball
   Scene scene;
   scene.meshes.push_back(solid(ball(0.3)));
@@ -72,14 +72,15 @@ TEST_CASE("the view is from that side which shows what is seen through") {
   const Pose X_WM{shortest_rotation(Eigen::Vector3d::UnitX(), side), 0.6 * side};
   scene.meshes.push_back(solid(box(0.1, 2, 2), {1, 1, 1}, X_WM));
   const Eye moved = frame_all(scene, 1);
-  // the ball's center seen from the eye does not lie beyond the wall's plane
+  // the ball's center as seen from the eye is not behind the wall's plane
   CHECK(moved.eye.dot(side) < 0.6 + 1);
   CHECK((moved.eye - moved.target).normalized().dot(side) < 0.5);
 }
 
 TEST_CASE(
-    "a view is of the side where contacts are seen, also where what hides them is drawn clear") {
-  // a glass ball in a cup that is open towards one side, in which the contacts lie
+    "a view is from the side where contacts are visible, also if the objects that hide them are "
+    "transparent") {
+  // a glass ball in a cup that is open towards one side, in which the contacts are
   for (const double angle : {0.3, 1.7, 2.9, 4.4}) {
     const Eigen::Vector3d open(std::cos(angle), std::sin(angle), 0);
     Scene scene;
@@ -101,7 +102,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("points that must be held lie in the frame, whatever the meshes are") {
+TEST_CASE("points to include are in the frame, for any meshes") {
   Random random(3);
   for (int trial = 0; trial < 20; ++trial) {
     Scene scene;
@@ -134,7 +135,7 @@ TEST_CASE("unframed meshes may leave the frame, and the view is not from their s
   }
 }
 
-TEST_CASE("an orthographic view holds everything as well") {
+TEST_CASE("an orthographic view contains everything as well") {
   for (const double aspect : {0.5, 2.0}) {
     Scene scene;
     scene.meshes.push_back(solid(box(0.2, 1, 3), {1, 1, 1}, Pose::translation({5, 5, 5})));
@@ -144,7 +145,8 @@ TEST_CASE("an orthographic view holds everything as well") {
   }
 }
 
-TEST_CASE("axes are a rotation whose back points from the target to the eye, whatever up is") {
+TEST_CASE(
+    "axes form a rotation whose z axis points from the target to the eye, for any up vector") {
   Eye eye;
   for (const Eigen::Vector3d& at :
        {Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(0, 0, 5), Eigen::Vector3d(0, 0, -1e-9)})
@@ -153,14 +155,14 @@ TEST_CASE("axes are a rotation whose back points from the target to the eye, wha
       eye.eye = at;
       eye.up = up;
       const Eigen::Matrix3d axes = view_axes(eye);
-      // products of unit vectors round in the last bits
+      // products of unit vectors are rounded in the last bits
       CHECK((axes.transpose() * axes - Eigen::Matrix3d::Identity()).norm() < 1e-12);
       CHECK(axes.determinant() == doctest::Approx(1));
       CHECK((axes.col(2) - at.normalized()).norm() < 1e-12);
     }
 }
 
-TEST_CASE("an empty scene has a view, and a bad aspect is refused") {
+TEST_CASE("an empty scene has a view, and an invalid aspect ratio is rejected") {
   const Eye eye = frame_all({}, 1.5);
   CHECK(eye.eye.allFinite());
   CHECK((eye.eye - eye.target).norm() > 0.1);

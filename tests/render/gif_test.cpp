@@ -13,7 +13,7 @@ using namespace clench;
 
 namespace {
 
-// 90 x 60, with `columns` x `rows` shades that five bits a channel tell apart
+// 90 x 60, with `columns` x `rows` shades that five bits per channel distinguish
 Picture squares(int columns, int rows, int turn) {
   Picture picture{90, 60, {}};
   for (int y = 0; y < 60; ++y)
@@ -35,7 +35,7 @@ int read(GifFileType* file, GifByteType* to, int count) {
 
 TEST_CASE("an animated GIF, read back, has the pixels of its pictures, and their delays") {
   constexpr std::array delays = {3, 4, 700};
-  // 240 colors in all, and 2,700, for which 256 stand
+  // 240 colors in all, and 2,700, which are represented by 256
   for (const auto& [columns, rows] : {std::pair{10, 8}, std::pair{30, 30}}) {
     const std::array frames = {squares(columns, rows, 0), squares(columns, rows, 1),
                                squares(columns, rows, 2)};
@@ -59,8 +59,8 @@ TEST_CASE("an animated GIF, read back, has the pixels of its pictures, and their
         const std::array rgb = {color.Red, color.Green, color.Blue};
         for (size_t c = 0; c < 3; ++c) sum += std::abs(rgb[c] - frames[i].pixels[3 * p + c]);
       }
-      // 85 colors a frame, by halving: 8 x 8 or more, squares of 30, whose points lie a quarter of
-      // that from the middle
+      // 85 colors per frame, by halving: 8 x 8 or more, squares of 30, whose points are a quarter
+      // of that from the center
       CHECK(sum / (3 * 90 * 60) <= (columns == 10 ? 0 : 30 / 4.0));
     }
     CHECK(DGifCloseFile(file, &error) == GIF_OK);
@@ -68,7 +68,7 @@ TEST_CASE("an animated GIF, read back, has the pixels of its pictures, and their
   }
 }
 
-TEST_CASE("pictures that make no animated GIF are told") {
+TEST_CASE("invalid pictures of an animated GIF are reported") {
   const std::array frames = {Picture{9, 6, std::vector<uint8_t>(9 * 6 * 3)},
                              Picture{9, 7, std::vector<uint8_t>(9 * 7 * 3)}};
   CHECK_THROWS_WITH_AS(gif_bytes({}, {}),

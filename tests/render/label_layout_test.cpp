@@ -34,7 +34,7 @@ bool is_written(const std::vector<PlacedText>& texts, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("boxes that crowd are spread within the picture, the first stays") {
+TEST_CASE("overlapping boxes are spread within the picture, and the first one stays") {
   Random random(3);
   const Vector2f picture(400, 300);
   std::vector<PixelBox> expected;
@@ -61,7 +61,7 @@ TEST_CASE("boxes that crowd are spread within the picture, the first stays") {
   CHECK(placed > 20);
 }
 
-TEST_CASE("a box at the edge is moved inside, one without room is left out") {
+TEST_CASE("a box at the edge is moved inside, and one without space is omitted") {
   const Vector2f picture(100, 50);
   const PixelBox edge{{90, -5}, {110, 5}};
   const auto moved = spread_boxes({{edge}}, picture);
@@ -69,7 +69,7 @@ TEST_CASE("a box at the edge is moved inside, one without room is left out") {
   CHECK_FALSE(spread_boxes({{edge}}, picture, {{{0, 0}, {100, 50}}})[0]);
 }
 
-TEST_CASE("the words of a wrench space lie apart, from wherever one looks") {
+TEST_CASE("the labels of a wrench space do not overlap, from any viewpoint") {
   const Vector2f picture(640, 480);
   Scene scene = make_wrench_scene({.solid = Shape::make(box(2, 1, 1)),
                                    .axes = {"fx", "fy", "fz"},
@@ -94,7 +94,7 @@ TEST_CASE("the words of a wrench space lie apart, from wherever one looks") {
   }
 }
 
-TEST_CASE("labels keep clear of arrows, and lie beside the places that they tell about") {
+TEST_CASE("labels avoid arrows, and are next to the places that they describe") {
   const Vector2f picture(400, 400);
   Scene scene;
   const PlacedForce forces[] = {{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0.1}, {1, 0, 0}}};
@@ -106,7 +106,7 @@ TEST_CASE("labels keep clear of arrows, and lie beside the places that they tell
   REQUIRE(texts.size() == 2);
   check_apart(texts, picture);
   // seen along y at 6 m: 400 pixels are 2 * 6 * tan(0.3) = 3.71 m, so the tails, 1 m to the left,
-  // are 107.7 pixels from the middle
+  // are 107.7 pixels from the center
   const PixelBox shaft{{200 - 107.7f, 199}, {200, 201}};
   for (const PlacedText& text : texts) {
     CHECK_FALSE(text.box.overlaps(shaft));
@@ -116,7 +116,7 @@ TEST_CASE("labels keep clear of arrows, and lie beside the places that they tell
   }
 }
 
-TEST_CASE("what is behind the eye or beside the picture is not written") {
+TEST_CASE("labels behind the eye or outside the picture are omitted") {
   Scene scene;
   scene.labels = {{{0, 0, 0}, "before"}, {{0, -20, 0}, "behind"}, {{50, 0, 0}, "beside"}};
   Eye eye;
@@ -126,7 +126,7 @@ TEST_CASE("what is behind the eye or beside the picture is not written") {
   CHECK(texts[0].text == "before");
 }
 
-TEST_CASE("a picture that is too small for words has none") {
+TEST_CASE("a picture that is too small for labels has none") {
   Scene scene;
   scene.labels = {{{0, 0, 0}, "a label"}};
   scene.caption = {"a caption"};
@@ -134,7 +134,7 @@ TEST_CASE("a picture that is too small for words has none") {
   CHECK(place_texts(scene, {}, {400, 119}, letters()).empty());
 }
 
-TEST_CASE("a line of a caption that is too wide goes on in the next") {
+TEST_CASE("a line of a caption that is too wide is wrapped") {
   Scene scene;
   scene.caption = {"some words that are too many for one line", "last"};
   const Vector2f picture(200, 200);
@@ -147,7 +147,7 @@ TEST_CASE("a line of a caption that is too wide goes on in the next") {
   CHECK(all == scene.caption[0]);
 }
 
-TEST_CASE("a caption stands in the lower left corner, its lines from the top, none too wide") {
+TEST_CASE("a caption is in the lower left corner, with its lines from the top, none too wide") {
   Scene scene;
   scene.caption = {"first", std::string(200, 'x')};
   const Vector2f picture(300, 200);

@@ -18,7 +18,7 @@ namespace {
 
 const std::string nowhere = "no/such/folder/font.ttf";
 
-using Covered = std::map<std::pair<int, int>, float>;  // parts of pixels by row and column
+using Covered = std::map<std::pair<int, int>, float>;  // coverage of pixels by row and column
 
 Covered covered_by(const TextLine& line, const Vector2i& size = {200, 100}) {
   Covered parts;
@@ -55,7 +55,7 @@ TEST_CASE("a text is as wide as its parts, and twice as wide at twice the height
   CHECK(font.width(front, 18) == doctest::Approx(2 * font.width(front, 9)));
   CHECK(font.width("", 9) == 0);
   CHECK(font.width("i", 9) < font.width("m", 9));
-  // numbers of columns stand below each other
+  // digits are aligned in columns
   for (const char* digit : {"1", "2", "3", "4", "5", "6", "7", "8", "9"})
     CHECK(font.width(digit, 9) == font.width("0", 9));
 }
@@ -74,7 +74,7 @@ TEST_CASE("letters of Latin and Greek stay within their width, between top and b
     CHECK(covered_by(letter) != box);
     const float right = 50 + font.width(letter, height);
     for (const auto& [place, part] : parts) {
-      // a few letters lean over their neighbors
+      // a few letters overlap their neighbors
       CHECK(static_cast<float>(place.second) > 50 - 0.2f * height);
       CHECK(static_cast<float>(place.second) < right + 0.1f * height);
       CHECK(static_cast<float>(place.first) > 60 - 1.35f * height);
@@ -84,7 +84,7 @@ TEST_CASE("letters of Latin and Greek stay within their width, between top and b
   CHECK(covered_by(" \u00A0").empty());
 }
 
-TEST_CASE("capital letters are as high as one asks, and stand on the baseline") {
+TEST_CASE("capital letters have the given height, and stand on the baseline") {
   for (const float height : {9.0f, 13.0f, 40.0f}) {
     const Covered parts = covered_by({"H", {20, 80}, height});
     CHECK(parts.begin()->first.first == 80 - static_cast<int>(height));
@@ -92,7 +92,7 @@ TEST_CASE("capital letters are as high as one asks, and stand on the baseline") 
   }
 }
 
-TEST_CASE("the ink of a text is the same wherever it stands and however it is turned") {
+TEST_CASE("the ink of a text does not depend on position and rotation") {
   const double ink = ink_of(covered_by({"epsilon µ", {20, 60}, 20}));
   for (const float shift : {0.25f, 0.5f, 0.81f})
     CHECK(ink_of(covered_by({"epsilon µ", Vector2f(20 + shift, 60 - shift), 20})) ==
@@ -102,7 +102,7 @@ TEST_CASE("the ink of a text is the same wherever it stands and however it is tu
           doctest::Approx(ink).epsilon(0.01));
 }
 
-TEST_CASE("what lies outside the picture is cut off, and what is no size is not drawn") {
+TEST_CASE("parts outside the picture are clipped, and invalid sizes draw nothing") {
   const Covered whole = covered_by({"Größe", {20, 60}, 30});
   const Covered cut = covered_by({"Größe", {-20, 10}, 30}, {60, 15});
   CHECK_FALSE(cut.empty());
@@ -116,7 +116,7 @@ TEST_CASE("what lies outside the picture is cut off, and what is no size is not 
   CHECK_FALSE(covered_by({"x", {-200, 600}, 1000}).empty());
 }
 
-TEST_CASE("bytes that are no text show as U+FFFD, letters that the font lacks as its box") {
+TEST_CASE("invalid bytes are shown as U+FFFD, and letters that the font lacks as its box") {
   CHECK(covered_by("a\xFFz") == covered_by("a\uFFFDz"));
   CHECK(covered_by("\xFF") != covered_by("力"));
   CHECK(covered_by("漢") == covered_by("力"));
@@ -127,7 +127,7 @@ TEST_CASE("bytes that are no text show as U+FFFD, letters that the font lacks as
   CHECK(font.missing("a\nb") == std::set{U'\n'});
 }
 
-TEST_CASE("what is too long loses its middle, and no more than it must") {
+TEST_CASE("a text that is too long loses its middle, and no more than necessary") {
   const Font font;
   const float height = 12;
   const std::string text = "the Größe of a grasp";
@@ -145,13 +145,13 @@ TEST_CASE("what is too long loses its middle, and no more than it must") {
     CHECK((front == back || front == back + 1));
     CHECK(letters.starts_with(left.substr(0, front)));
     CHECK(letters.ends_with(left.substr(front + 1)));
-    // with one letter more it would be too wide
+    // with one more letter it would be too wide
     const size_t next = front == back ? front : letters.size() - 1 - back;
     CHECK(font.width(kept + text_of(letters.substr(next, 1)), height) > width);
   }
 }
 
-TEST_CASE("without its font there are no letters, and a sentence names the file") {
+TEST_CASE("without its font no letters are drawn, and a message names the file") {
   for (const std::string& path : {nowhere, std::string("README.md"), std::string("docs")}) {
     const Font font(path);
     CAPTURE(font.fault());

@@ -4,7 +4,7 @@
 
 using namespace clench;
 
-TEST_CASE("a room's lights surround the scene, and each half of the ball gives a whole") {
+TEST_CASE("a room's lights surround the scene, and each half of the ball gives a total of one") {
   for (const int count : {24, 128, 500}) {
     const auto room = place_room(count);
     CHECK(room.size() == static_cast<size_t>(count));
@@ -18,12 +18,12 @@ TEST_CASE("a room's lights surround the scene, and each half of the ball gives a
     // the mean of the cosine over a half ball is 1/2, and the shares of a half add up to 2
     CHECK(above == doctest::Approx(1).epsilon(0.02));
     CHECK(below == doctest::Approx(1).epsilon(0.02));
-    // evenly spread: no side is preferred; the spiral leaves less than one part in its count
+    // evenly spread: no side is preferred; the spiral is uneven by less than one part in its count
     CHECK(sum.norm() < 8.0 / count);
   }
 }
 
-TEST_CASE("a lamp shines from above on the viewer's left, from straight down too") {
+TEST_CASE("a lamp shines from above on the viewer's left, also if the view is straight down") {
   Eigen::Matrix3d level, down;
   level << 1, 0, 0, 0, 0, -1, 0, 1, 0;  // right x, up z, back -y
   down.setIdentity();                   // right x, up y, back z
@@ -40,7 +40,8 @@ TEST_CASE("a lamp shines from above on the viewer's left, from straight down too
 }
 
 TEST_CASE(
-    "samples balance about the middle of the pixel and reach into its neighbors, not beyond") {
+    "samples are balanced about the center of the pixel and overlap its neighbors, but not "
+    "beyond") {
   CHECK(place_samples(1).front().isZero());
   for (const int count : {1, 4, 8, 16, 64}) {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -48,7 +49,7 @@ TEST_CASE(
       CHECK(p.cwiseAbs().maxCoeff() < 1.5);
       sum += p;
     }
-    // the mean is taken off: what remains is rounding
+    // the mean is subtracted: only rounding remains
     CHECK(sum.norm() < 1e-12 * count);
   }
 }

@@ -44,7 +44,7 @@ Scene five_things(Random& random) {
   return scene;
 }
 
-// of five_things by its hue: 0..4, or -1 where it is none for sure
+// index in five_things by hue: 0..4, or -1 if it is uncertain
 int hue_of(const Color& c) {
   const int top = *std::ranges::max_element(c);
   if (top < 40) return -1;
@@ -66,7 +66,7 @@ int number_of(const Shown& shown) {
 
 }  // namespace
 
-TEST_CASE("what is picked in a pixel is what the picture shows there") {
+TEST_CASE("picking at a pixel returns the object that the picture shows there") {
   REQUIRE_PICTURES();
   Random random(7);
   int agreed = 0;
@@ -104,7 +104,7 @@ TEST_CASE("what is picked in a pixel is what the picture shows there") {
   CHECK(met == std::set{-2, 0, 1, 2, 3, 4});
 }
 
-TEST_CASE("a picked point lies in its pixel, on the nearest triangle, whose normal faces the eye") {
+TEST_CASE("a picked point is in its pixel, on the nearest triangle, whose normal faces the eye") {
   Random random(11);
   for (int i = 0; i < 40; ++i) {
     Scene scene;
@@ -117,7 +117,7 @@ TEST_CASE("a picked point lies in its pixel, on the nearest triangle, whose norm
     const auto picked = pick_at(scene, eye, x, y);
     const Eigen::Matrix4d clip =
         view_projection(eye, static_cast<double>(pick_width) / pick_height, 0.01, 100);
-    // of every triangle that covers the middle of the pixel, the depth there
+    // depth of every triangle that covers the center of the pixel
     double nearest = std::numeric_limits<double>::infinity();
     const Eigen::Vector2d middle((x + 0.5) / pick_width * 2 - 1, 1 - (y + 0.5) / pick_height * 2);
     for (const DrawMesh& mesh : scene.meshes)
@@ -150,7 +150,7 @@ TEST_CASE("a picked point lies in its pixel, on the nearest triangle, whose norm
   }
 }
 
-TEST_CASE("glass is picked, what is invisible is not, and the floor from above alone") {
+TEST_CASE("glass is picked, invisible objects are not, and the floor only from above") {
   Scene scene;
   scene.meshes.push_back(solid(box(1, 1, 1)));
   scene.meshes.back().opacity = 0.3f;

@@ -30,7 +30,7 @@ Picture read_png(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("a PNG file read back is the picture that was saved") {
+TEST_CASE("a PNG file read back equals the picture that was saved") {
   const auto path = std::filesystem::temp_directory_path() / "clench_picture_test.png";
   for (const auto& [w, h] : {std::pair(1, 1), std::pair(31, 17), std::pair(64, 48)}) {
     const Picture picture = pattern(w, h);
@@ -54,7 +54,7 @@ TEST_CASE("a path that cannot be written is named, with the reason") {
                        "/dev/full: expected a file to write, got a special file", Error);
 }
 
-TEST_CASE("a picture whose pixels do not fit its size is refused") {
+TEST_CASE("a picture whose pixels do not fit its size is rejected") {
   Picture picture = pattern(2, 2);
   picture.pixels.pop_back();
   CHECK_THROWS_WITH_AS(save_png(picture, "a.png"),
@@ -65,7 +65,7 @@ TEST_CASE("a picture whose pixels do not fit its size is refused") {
                        Error);
 }
 
-TEST_CASE("a disk that is full is an error, not a short file") {
+TEST_CASE("a full disk is an error, not a truncated file") {
   if (!std::filesystem::exists("/dev/full")) return;
   CHECK_THROWS_AS(save_png(pattern(64, 48), "/dev/full"), Error);
 }

@@ -1,4 +1,4 @@
-// What the tests of pictures share.
+// Shared by the tests of pictures.
 #pragma once
 #include <doctest/doctest.h>
 
@@ -11,14 +11,14 @@
 
 namespace clench::test {
 
-/// Does this machine, and this build, draw? The test case is skipped when not.
+/// Whether this machine and this build can draw. If not, the test case is skipped.
 inline bool pictures() {
   try {
     render({}, {.width = 16, .height = 16, .samples = 1});
     return true;
   } catch (const Error& error) {
     const std::string why = error.what();
-    // anything else is a fault of ours
+    // all other errors are failures of the test
     REQUIRE((why.find("install the packages libegl1, libgl1 and libgl1-mesa-dri") != why.npos ||
              why == "this build has no pictures: configure with -DCLENCH_GL=ON"));
     skip(why);
@@ -48,6 +48,6 @@ inline DrawMesh solid(const Mesh& mesh, const Eigen::Vector3f& color = {0.85f, 0
 
 }  // namespace clench::test
 
-/// Ends the test case, as skipped, where there are no pictures.
+/// Ends the test case as skipped if pictures cannot be drawn.
 #define REQUIRE_PICTURES() \
   if (!clench::test::pictures()) return;

@@ -25,7 +25,7 @@ std::vector<Item> items_of(const Drawing& drawing) {
   return out;
 }
 
-// lines of the data: those of axes are thinner
+// lines of the data; those of axes are thinner
 std::vector<Drawing::Line> data_lines(const Drawing& drawing) {
   auto lines = items_of<Drawing::Line>(drawing);
   std::erase_if(lines, [](const Drawing::Line& line) { return line.width <= 1; });
@@ -45,7 +45,7 @@ Plot of(PlotSeries series) {
 
 }  // namespace
 
-TEST_CASE("points stand where the numbers at the axes say") {
+TEST_CASE("points are at the positions given by the numbers of the axes") {
   const Drawing drawing =
       draw_plot(of({.kind = PlotKind::points, .x = {0, 5, 10}, .y = {-1, 0, 1}}), letters());
   const auto points = data_lines(drawing);
@@ -56,8 +56,7 @@ TEST_CASE("points stand where the numbers at the axes say") {
   CHECK((first + last - 2 * middle).norm() < 1e-3f);
   CHECK(first.x() < last.x());
   CHECK(first.y() > last.y());
-  // the upright lines of the axis, at 0, 2, 4 ...: the first and the last point stand on two of
-  // them
+  // the vertical lines of the axis, at 0, 2, 4 ...: the first and the last point are on two of them
   std::vector<float> upright;
   for (const auto& line : items_of<Drawing::Line>(drawing))
     if (line.points.size() == 2 && line.points[0].x() == line.points[1].x())
@@ -67,7 +66,7 @@ TEST_CASE("points stand where the numbers at the axes say") {
   for (const char* number : {"0", "2", "10", "-0.5"}) CHECK(has_text(drawing, number));
 }
 
-TEST_CASE("a line has gaps where numbers are missing, and a number alone is a dot") {
+TEST_CASE("a line has gaps at missing numbers, and a single number is a dot") {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
                    infinity = std::numeric_limits<double>::infinity();
   const auto lines = data_lines(
@@ -79,7 +78,7 @@ TEST_CASE("a line has gaps where numbers are missing, and a number alone is a do
   CHECK(sizes == std::vector<size_t>{1, 2, 2});
 }
 
-TEST_CASE("what is drawn of a line within a range is what of it lies there, by many points on it") {
+TEST_CASE("the part of a line inside a range is drawn, compared with many points on it") {
   Random random(1);
   for (int n = 0; n < 200; ++n) {
     Plot plot = of({.x = {random.uniform(-3, 3), random.uniform(-3, 3)},
@@ -94,14 +93,14 @@ TEST_CASE("what is drawn of a line within a range is what of it lies there, by m
       const double x = s.x[0] + t * (s.x[1] - s.x[0]), y = s.y[0] + t * (s.y[1] - s.y[0]);
       inside += std::abs(x) <= 1 && std::abs(y) <= 1;
     }
-    // as a share of the whole: samples tell it to a few of their distances
+    // as a fraction of the line: sampling has an error of a few of its distances
     const double whole = std::hypot((s.x[1] - s.x[0]), (s.y[1] - s.y[0]));
     if (inside == 0) {
       CHECK((lines.empty() || (lines[0].points[1] - lines[0].points[0]).norm() < 0.5f));
       continue;
     }
     REQUIRE(lines.size() == 1);
-    // pixels of the two axes differ: measured along x, or along y where that is longer
+    // pixels of the two axes differ: measured along x, or along y if that is longer
     Plot unit = of({.kind = PlotKind::points, .x = {-1, 1}, .y = {-1, 1}});
     unit.x.range = unit.y.range = plot.x.range;
     const auto corners = data_lines(draw_plot(unit, letters()));
@@ -113,7 +112,7 @@ TEST_CASE("what is drawn of a line within a range is what of it lies there, by m
   }
 }
 
-TEST_CASE("bars stand on 0 between their edges, and their axis holds 0") {
+TEST_CASE("bars stand on 0 between their edges, and their axis contains 0") {
   const auto bars = items_of<Drawing::Area>(
       draw_plot(of({.kind = PlotKind::bars, .x = {0, 1, 2, 4}, .y = {10, 20, -5}}), letters()));
   REQUIRE(bars.size() == 3);
@@ -121,13 +120,12 @@ TEST_CASE("bars stand on 0 between their edges, and their axis holds 0") {
   CHECK(bars[1].high.y() == zero);
   CHECK(bars[2].low.y() == zero);
   CHECK(2 * (zero - bars[0].low.y()) == doctest::Approx(zero - bars[1].low.y()).epsilon(1e-4));
-  // the last is twice as wide, but for the gaps between them
+  // the last bar is twice as wide, except for the gaps between bars
   CHECK(bars[2].high.x() - bars[2].low.x() + 1 ==
         doctest::Approx(2 * (bars[0].high.x() - bars[0].low.x() + 1)).epsilon(1e-3));
 }
 
-TEST_CASE(
-    "on a logarithmic axis equal ratios are equal distances, and what is not > 0 is left out") {
+TEST_CASE("on a logarithmic axis equal ratios are equal distances, and values <= 0 are omitted") {
   Plot plot;
   plot.series = {{.kind = PlotKind::points, .x = {1, 10, 100, 0, -3}, .y = {1, 1, 1, 1, 1}}};
   plot.x.logarithmic = true;
@@ -140,7 +138,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "lines of a logarithmic axis are at powers of ten, and at 2 and 5 times them where these are "
+    "lines of a logarithmic axis are at powers of ten, and at 2 and 5 times them if these are "
     "few") {
   const auto numbers = [](double low, double high) {
     Plot plot;
@@ -160,13 +158,13 @@ TEST_CASE(
   CHECK(holds(numbers(1, 100), {"5", "10", "20", "50", "100"}));
   CHECK(holds(numbers(0.001, 1000), {"0.001", "0.1", "1", "10", "1000"}));
   CHECK(holds(numbers(1e-30, 1e30), {"1", "1e10"}));
-  // large and small ones alike
+  // for large and small values alike
   CHECK(holds(numbers(1e-4, 1e4), {"1e-4", "1", "1e4"}));
   // ranges of less than a decade show all digits
   CHECK(holds(numbers(0.2, 0.7), {"0.2", "0.3", "0.4", "0.5", "0.6", "0.7"}));
 }
 
-TEST_CASE("a logarithmic axis refuses what it cannot show") {
+TEST_CASE("a logarithmic axis rejects ranges that it cannot show") {
   Plot plot;
   plot.series = {{.x = {1, 2}, .y = {1, 2}}};
   plot.y = {.range = {{0, 1}}, .logarithmic = true};
@@ -200,7 +198,7 @@ TEST_CASE("any finite numbers make a figure") {
   }
 }
 
-TEST_CASE("a figure in SVG has the same parts, and its texts cannot end it") {
+TEST_CASE("a figure in SVG has the same parts, and its texts cannot close its elements") {
   Plot plot = of({.name = "<&> \x01", .x = {0, 1}, .y = {0, 1}});
   plot.title = "</svg>";
   const std::string svg = svg_text(draw_plot(plot, letters()));
@@ -211,7 +209,7 @@ TEST_CASE("a figure in SVG has the same parts, and its texts cannot end it") {
   CHECK(svg.find("<polyline") != std::string::npos);
 }
 
-TEST_CASE("a plot that cannot be drawn is refused") {
+TEST_CASE("a plot that cannot be drawn is rejected") {
   const auto refused = [](Plot plot, const char* message) {
     CHECK_THROWS_WITH_AS(draw_plot(plot, letters()), message, Error);
   };
@@ -234,7 +232,7 @@ TEST_CASE("a plot that cannot be drawn is refused") {
           "plot: expected at most 200000 values in all, got 200001");
 }
 
-TEST_CASE("a sheet holds its pictures whole, each in its cell") {
+TEST_CASE("a sheet contains complete pictures, each in its cell") {
   std::vector<Picture> pictures;
   for (int i = 0; i < 5; ++i) {
     Picture p{20 + i, 10, std::vector<uint8_t>(3 * static_cast<size_t>(20 + i) * 10)};
@@ -252,11 +250,11 @@ TEST_CASE("a sheet holds its pictures whole, each in its cell") {
   }
   const Picture told = contact_sheet(list, {.captions = {"a", "b", "c", "d", "e"}}, letters());
   CHECK(told.height > told.width / 4);
-  // a caption of two lines makes room for both
+  // a caption of two lines makes the row higher for both pictures
   const Picture two = contact_sheet(list, {.captions = {"a", "b\nb", "c", "d", "e"}}, letters());
   CHECK(two.width == told.width);
   CHECK(two.height == told.height + 18 * ((told.height - 12) / (10 + 22 + 12)));
-  // notes stand under all pictures, in as many lines as they need
+  // notes are below all pictures, with as many lines as required
   const Picture noted =
       contact_sheet(list, {.notes = {"a b", "c"}, .columns = 2, .gap = 4}, letters());
   CHECK(noted.height == sheet.height + 2 * 18 + 4 + (noted.height > sheet.height + 40 ? 18 : 0));

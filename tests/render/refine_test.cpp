@@ -19,7 +19,7 @@ static std::vector<Corner> corners_of(const Mesh& mesh) {
   return corners;
 }
 
-TEST_CASE("no edge within the ball is longer than asked, and no crack opens") {
+TEST_CASE("no edge within the ball is longer than requested, and no crack opens") {
   const auto fine = split_long_edges(corners_of(box(1, 0.8, 0.1)), 0.07f);
   using Point = std::tuple<float, float, float>;
   std::map<std::pair<Point, Point>, int> edges;
@@ -29,14 +29,14 @@ TEST_CASE("no edge within the ball is longer than asked, and no crack opens") {
       CHECK((a - b).norm() <= 0.07f * 1.0001f);
       ++edges[{{a.x(), a.y(), a.z()}, {b.x(), b.y(), b.z()}}];
     }
-  // a closed mesh stays closed: each edge runs once each way
+  // a closed mesh stays closed: each edge occurs once in each direction
   for (const auto& [edge, count] : edges) {
     CHECK(count == 1);
     CHECK(edges.count({edge.second, edge.first}) == 1);
   }
 }
 
-TEST_CASE("a floor far larger than the scene is fine where the scene is") {
+TEST_CASE("a floor far larger than the scene is fine near the scene") {
   const auto corners = corners_of(box(100, 100, 0.01));
   CHECK(affordable_length(corners, 0.07f, 200000) == 0.07f);
   const auto fine = split_long_edges(corners, 0.07f);
@@ -47,7 +47,7 @@ TEST_CASE("a floor far larger than the scene is fine where the scene is") {
   }
 }
 
-TEST_CASE("a mesh that would become too many triangles keeps longer edges") {
+TEST_CASE("a mesh that would have too many triangles keeps longer edges") {
   const auto corners = corners_of(ball(1, 60, 120));
   const auto fine = split_long_edges(corners, affordable_length(corners, 0.001f, 20000));
   CHECK(fine.size() >= corners.size());
@@ -56,7 +56,7 @@ TEST_CASE("a mesh that would become too many triangles keeps longer edges") {
   CHECK(split_long_edges(corners, no_longer).size() >= corners.size());
 }
 
-TEST_CASE("equal corners are shared, in the order in which they first come") {
+TEST_CASE("equal corners are shared, in the order of their first occurrence") {
   DrawList list;
   const auto corners = corners_of(box(1, 1, 1));
   append_shared(corners, list.corners, list.indices);

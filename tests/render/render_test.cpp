@@ -19,7 +19,7 @@ Scene red_box() {
   return scene;
 }
 
-// a bit of everything: solid, seen through, colored by triangle, a cone and a needle, a floor
+// objects of all kinds: solid, transparent, colored by triangle, a cone and a needle, a floor
 Scene still_life() {
   Scene scene = red_box();
   scene.meshes.push_back(solid(ball(0.5), {0.2f, 0.5f, 0.9f}, Pose::translation({1.2, 0.3, 0})));
@@ -52,13 +52,13 @@ int greatest_difference(const Picture& a, const Picture& b) {
 
 }  // namespace
 
-TEST_CASE("the same scene gives the same bytes") {
+TEST_CASE("the same scene gives identical bytes") {
   REQUIRE_PICTURES();
   const Scene scene = still_life();
   CHECK(render(scene, small).pixels == render(scene, small).pixels);
 }
 
-TEST_CASE("threads draw at the same time, each what it would alone") {
+TEST_CASE("threads draw at the same time, each the same as alone") {
   REQUIRE_PICTURES();
   const Scene scene = still_life();
   const Picture alone = render(scene, small);
@@ -69,7 +69,7 @@ TEST_CASE("threads draw at the same time, each what it would alone") {
   for (const Picture& picture : pictures) CHECK(picture.pixels == alone.pixels);
 }
 
-TEST_CASE("a red box is red in the middle, and the corners are background") {
+TEST_CASE("a red box is red at its center, and the corners are background") {
   REQUIRE_PICTURES();
   const Picture picture = render(red_box(), small), nothing = render({}, small);
   CHECK(is_red(pixel(picture, 48, 36)));
@@ -77,7 +77,7 @@ TEST_CASE("a red box is red in the middle, and the corners are background") {
     for (const int y : {0, 71}) CHECK(pixel(picture, x, y) == pixel(nothing, x, y));
 }
 
-TEST_CASE("a picture has the size that was asked for, in one tile or several") {
+TEST_CASE("a picture has the requested size, in one tile or several") {
   REQUIRE_PICTURES();
   for (const auto& [w, h] : {std::pair(16, 16), std::pair(200, 33), std::pair(1600, 40)}) {
     const Picture picture = render(red_box(), {.width = w, .height = h, .samples = 1});
@@ -87,9 +87,9 @@ TEST_CASE("a picture has the size that was asked for, in one tile or several") {
   }
 }
 
-TEST_CASE("no seam shows between tiles") {
+TEST_CASE("no seam is visible between tiles") {
   REQUIRE_PICTURES();
-  // tiles end at 1536: a wall across that column is one color on either side of it
+  // tiles end at 1536: a wall across that column has the same color on both sides
   Scene scene;
   scene.meshes.push_back(solid(box(40, 1, 40)));
   scene.eye = looking_along_y(10);
@@ -101,7 +101,7 @@ TEST_CASE("no seam shows between tiles") {
   }
 }
 
-TEST_CASE("a camera that is given is used: a known point lies where it projects to") {
+TEST_CASE("a given camera is used: a known point is at its projection") {
   REQUIRE_PICTURES();
   Scene scene;
   const Eigen::Vector3d p_W(0.31, 0.2, -0.17);
@@ -117,8 +117,8 @@ TEST_CASE("a camera that is given is used: a known point lies where it projects 
   const double x = (0.5 + 0.5 * clip.x() / clip.w()) * 96,
                y = (0.5 - 0.5 * clip.y() / clip.w()) * 72;
   const Picture picture = render(scene, small);
-  // a ball of 0.03 m at 2.3 m is about two pixels in radius: it covers its middle, not what is five
-  // away
+  // a ball of 0.03 m at 2.3 m has a radius of about two pixels: it covers its center, not pixels
+  // five away
   CHECK(is_red(pixel(picture, static_cast<int>(x), static_cast<int>(y))));
   CHECK(!is_red(pixel(picture, static_cast<int>(x) + 5, static_cast<int>(y))));
   CHECK(!is_red(pixel(picture, static_cast<int>(x), static_cast<int>(y) - 5)));
@@ -130,14 +130,14 @@ TEST_CASE("z is up and x is to the right for a camera that looks along y") {
   scene.meshes.push_back(solid(box(0.3, 0.3, 0.3), {0.9f, 0, 0}, Pose::translation({0.6, 0, 0.4})));
   scene.eye = looking_along_y(4);
   const Picture picture = render(scene, small);
-  // 72 pixels cover 2 * 4 * tan(0.4) = 3.38 m: the box's middle lies 12.8 right and 8.5 up of the
+  // 72 pixels cover 2 * 4 * tan(0.4) = 3.38 m: the box's center is 12.8 right and 8.5 up of the
   // center
   CHECK(is_red(pixel(picture, 48 + 12, 36 - 8)));
   CHECK(!is_red(pixel(picture, 48 - 12, 36 - 8)));
   CHECK(!is_red(pixel(picture, 48 + 12, 36 + 8)));
 }
 
-TEST_CASE("what is nearer hides what is farther, in either order") {
+TEST_CASE("near objects hide distant ones, in either order") {
   REQUIRE_PICTURES();
   const DrawMesh near = solid(box(1, 0.1, 1), {0.9f, 0, 0}, Pose::translation({0, -1, 0}));
   const DrawMesh far = solid(box(1, 0.1, 1), {0, 0, 0.9f}, Pose::translation({0, 1, 0}));
@@ -149,7 +149,7 @@ TEST_CASE("what is nearer hides what is farther, in either order") {
   CHECK(is_red(pixel(render(other, small), 48, 36)));
 }
 
-TEST_CASE("a transparent box lets through what is behind it") {
+TEST_CASE("objects behind a transparent box are visible") {
   REQUIRE_PICTURES();
   Scene scene;
   scene.meshes.push_back(solid(ball(0.3), {0.95f, 0, 0}, Pose::translation({0, 1, 0})));
@@ -166,7 +166,7 @@ TEST_CASE("a transparent box lets through what is behind it") {
   CHECK(is_red(alone));
 }
 
-TEST_CASE("a cone inside a transparent body shows, inside a solid one it does not") {
+TEST_CASE("a cone inside a transparent body is visible, and inside a solid one it is not") {
   REQUIRE_PICTURES();
   Scene scene;
   scene.meshes.push_back(solid(ball(0.5), {0, 0, 0.9f}));
@@ -185,7 +185,7 @@ TEST_CASE("a cone inside a transparent body shows, inside a solid one it does no
   CHECK(hidden[0] < hidden[2]);
 }
 
-TEST_CASE("a box throws a shadow on the floor, and a thinner one a thinner shadow") {
+TEST_CASE("a box casts a shadow on the floor, and a thinner one a thinner shadow") {
   REQUIRE_PICTURES();
   Scene scene;
   scene.meshes.push_back(solid(box(1, 1, 1), {0.8f, 0.8f, 0.8f}));
@@ -193,7 +193,7 @@ TEST_CASE("a box throws a shadow on the floor, and a thinner one a thinner shado
   Eye eye;
   eye.eye = {0, -6, 3};
   scene.eye = eye;
-  // the lamp is to the upper left: the floor right of the box lies in its shadow
+  // the lamp is at the upper left: the floor right of the box is in its shadow
   const auto at = [&](const Picture& picture) {
     const Eigen::Vector4d clip =
         view_projection(eye, 96.0 / 72, 0.1, 100) * Eigen::Vector4d(0.75, 0, -0.5, 1);
@@ -209,7 +209,7 @@ TEST_CASE("a box throws a shadow on the floor, and a thinner one a thinner shado
   CHECK(thin + 20 < none);
 }
 
-TEST_CASE("a mesh whose triangles run the wrong way round looks the same") {
+TEST_CASE("a mesh with reversed triangles looks the same") {
   REQUIRE_PICTURES();
   Mesh turned = ball(0.5);
   // half of them: neighbors disagree, as in many files
@@ -219,14 +219,14 @@ TEST_CASE("a mesh whose triangles run the wrong way round looks the same") {
   one.meshes.push_back(solid(ball(0.5)));
   other.meshes.push_back(solid(turned));
   one.ground = other.ground = -0.5;
-  // the diagonals of split quads differ with the order of corners: light differs a little where it
-  // is interpolated
+  // the diagonals of split quads depend on the order of corners: light differs slightly where it is
+  // interpolated
   CHECK(greatest_difference(render(one, small), render(other, small)) <= 8);
 }
 
-TEST_CASE("a millimeter and a kilometer make the same picture") {
+TEST_CASE("scenes of a millimeter and of a kilometer give the same picture") {
   REQUIRE_PICTURES();
-  // scaling by a power of two is exact, so the pictures agree to the byte
+  // scaling by a power of two is exact, so the pictures are byte-identical
   const auto scaled = [](double factor) {
     Scene scene;
     Mesh mesh = box(1, 0.7, 0.5);
@@ -241,22 +241,22 @@ TEST_CASE("a millimeter and a kilometer make the same picture") {
   CHECK(scaled(std::ldexp(1, 29)).pixels == meter.pixels);
 }
 
-TEST_CASE("a view from close by and one from far away show what they should") {
+TEST_CASE("views from very near and very far are correct") {
   REQUIRE_PICTURES();
   Scene scene = red_box();
   // a millimeter off the face of a box of a meter
   scene.eye = looking_along_y(0.501);
   CHECK(is_red(pixel(render(scene, small), 48, 36)));
-  // from ten kilometers, through a narrow lens
+  // from ten kilometers, with a narrow field of view
   scene.eye = looking_along_y(1e4);
   scene.eye->field_of_view = 0.001;
   CHECK(is_red(pixel(render(scene, small), 48, 36)));
-  // from within: the sides are seen from behind, and nothing fails
+  // from inside: the sides are seen from behind, and nothing fails
   scene.eye = looking_along_y(0.1);
   CHECK(render(scene, small).pixels.size() == 3u * 96 * 72);
 }
 
-TEST_CASE("a background mesh takes the shadow and leaves the frame to the others") {
+TEST_CASE("a background mesh receives the shadow and does not affect the frame") {
   REQUIRE_PICTURES();
   Scene scene = red_box();
   scene.meshes.push_back(
@@ -267,7 +267,7 @@ TEST_CASE("a background mesh takes the shadow and leaves the frame to the others
   CHECK((eye.eye - eye.target).norm() < 10);
 }
 
-TEST_CASE("nothing at all, and nothing but degenerate triangles, is a legal scene") {
+TEST_CASE("an empty scene, and only degenerate triangles, are valid") {
   REQUIRE_PICTURES();
   const Picture nothing = render({}, small);
   CHECK(nothing.pixels.size() == 3u * 96 * 72);
@@ -286,7 +286,7 @@ TEST_CASE("nothing at all, and nothing but degenerate triangles, is a legal scen
   CHECK(render(scene, small).pixels == nothing.pixels);
 }
 
-TEST_CASE("numbers out of range are refused by name") {
+TEST_CASE("numbers out of range are rejected by name") {
   REQUIRE_PICTURES();
   CHECK_THROWS_WITH_AS(render({}, {.width = 15}),
                        "picture: width must be between 16 and 8192 pixels, got 15", Error);
@@ -312,10 +312,9 @@ TEST_CASE("numbers out of range are refused by name") {
                        "picture: field of view must be between 0.001 and 3 [rad], got 3.2", Error);
 }
 
-TEST_CASE(
-    "a glass box on the floor, and one on a table, show one and the same bottom from any side") {
+TEST_CASE("a glass box on the floor and one on a table show the same bottom from any side") {
   REQUIRE_PICTURES();
-  // the table's top is as high as the floor of the first
+  // the table's top is as high as the floor of the first scene
   for (const bool table : {false, true})
     for (const Quality quality : {Quality::draft, Quality::paper})
       for (int view = 0; view < 6; ++view) {
@@ -346,7 +345,7 @@ TEST_CASE(
       }
 }
 
-TEST_CASE("a picture knows its camera, and drawn with that it is the same to the byte") {
+TEST_CASE("a picture stores its camera, and drawing with that is byte-identical") {
   REQUIRE_PICTURES();
   Scene scene;
   scene.meshes.push_back(solid(box(0.1, 0.2, 0.3)));
@@ -362,8 +361,7 @@ TEST_CASE("a picture knows its camera, and drawn with that it is the same to the
   }
 }
 
-TEST_CASE(
-    "a draft that is drawn larger and reduced has the size that was asked for, and finer edges") {
+TEST_CASE("a draft that is drawn larger and reduced has the requested size, and smoother edges") {
   REQUIRE_PICTURES();
   const auto drawn = [](int scale) {
     return render(still_life(),

@@ -20,7 +20,7 @@ RenderOptions of(Quality quality, Backdrop backdrop = Backdrop::studio, double o
           .outline = outline};
 }
 
-// solid, seen through, a cone, a floor
+// solid, transparent, a cone, a floor
 Scene some_things(double shift = 0) {
   Scene scene;
   scene.meshes.push_back(
@@ -50,9 +50,7 @@ class Stopping : public Watcher {
 
 }  // namespace
 
-TEST_CASE(
-    "a picture is the same from a renderer that is fresh and from one that has drawn other "
-    "things") {
+TEST_CASE("a new renderer and one that has drawn other scenes give the same picture") {
   REQUIRE_PICTURES();
   for (const Quality quality : qualities)
     for (const Backdrop backdrop : {Backdrop::studio, Backdrop::white, Backdrop::transparent})
@@ -71,7 +69,7 @@ TEST_CASE(
       }
 }
 
-TEST_CASE("a renderer that was stopped half way draws what a fresh one does") {
+TEST_CASE("a renderer that was stopped half way draws the same as a new one") {
   REQUIRE_PICTURES();
   for (const Quality quality : qualities) {
     const Picture expected = Renderer().draw(some_things(), of(quality), letters());
@@ -100,7 +98,8 @@ TEST_CASE("a renderer may draw in any thread, one at a time") {
   CHECK(here == there);
 }
 
-TEST_CASE("what a renderer keeps does not grow with the pictures of one scene, and can be let go") {
+TEST_CASE(
+    "the cache of a renderer does not grow with the pictures of one scene, and can be cleared") {
   REQUIRE_PICTURES();
   Renderer renderer;
   CHECK(renderer.bytes() == 0);
@@ -115,8 +114,7 @@ TEST_CASE("what a renderer keeps does not grow with the pictures of one scene, a
   CHECK(renderer.bytes() == 0);
 }
 
-TEST_CASE(
-    "nothing but bodies and their shadow is on a transparent background, and white is white") {
+TEST_CASE("a transparent background contains only bodies and their shadow, and white is white") {
   REQUIRE_PICTURES();
   for (const Quality quality : qualities) {
     const Picture clear = render(some_things(), of(quality, Backdrop::transparent));
@@ -133,7 +131,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("in an orthographic view a body is as large far away as near") {
+TEST_CASE("in an orthographic view the size of a body does not depend on its distance") {
   REQUIRE_PICTURES();
   for (const Quality quality : qualities) {
     Scene scene;
@@ -151,7 +149,7 @@ TEST_CASE("in an orthographic view a body is as large far away as near") {
   }
 }
 
-TEST_CASE("lines run around bodies, wider as asked, and no line lies within a smooth face") {
+TEST_CASE("outlines surround bodies, with the given width, and no line is within a smooth face") {
   REQUIRE_PICTURES();
   for (const Quality quality : qualities) {
     Scene scene;
@@ -167,7 +165,7 @@ TEST_CASE("lines run around bodies, wider as asked, and no line lies within a sm
     };
     CHECK(dark(0) == 0);
     const int thin = dark(2), thick = dark(6);
-    // the face is 60 pixels a side
+    // the face is 60 pixels wide
     CHECK(thin > 150);
     CHECK(thick > 2 * thin);
     CHECK(thick < 6 * 4 * 70);
@@ -186,7 +184,7 @@ TEST_CASE("a view from within a body shows its inside") {
   }
 }
 
-TEST_CASE("numbers of a picture out of range are refused by name") {
+TEST_CASE("numbers of a picture out of range are rejected by name") {
   const auto fails = [](RenderOptions options, const char* message) {
     CHECK_THROWS_WITH_AS(check(options), message, Error);
   };

@@ -1,4 +1,4 @@
-// Edges smoothed pixel by pixel: the reference for what the graphics card does.
+// Edges smoothed pixel by pixel: the reference for the graphics card.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 
 namespace clench::test {
 
-inline constexpr int reach_along = 12;   // of a step that is followed [pixels]
-inline constexpr int min_contrast = 12;  // that is smoothed, of 255
+inline constexpr int reach_along = 12;   // maximal length of a step that is followed [pixels]
+inline constexpr int min_contrast = 12;  // minimal contrast that is smoothed, of 255
 inline constexpr float part_contrast = 0.1f,
-                       max_spot = 0.6f;  // of the brightest; of a single pixel
+                       max_spot = 0.6f;  // relative to the brightest; for a single pixel
 
 struct Brightness {
   int width, height;
@@ -18,7 +18,7 @@ struct Brightness {
   int at(int x, int y) const { return values[static_cast<size_t>(y) * width + x]; }
 };
 
-// as on white
+// as on a white background
 inline Brightness brightness_of(const Picture& p) {
   Brightness out{p.width, p.height, {}};
   out.values.resize(static_cast<size_t>(p.width) * p.height);
@@ -30,7 +30,7 @@ inline Brightness brightness_of(const Picture& p) {
   return out;
 }
 
-// how much of the pixel across belongs here, and where that is
+// fraction to mix in from a neighbor across the edge, and its offset
 struct Mix {
   float part = 0;
   int dx = 0, dy = 0;
@@ -48,7 +48,7 @@ inline Mix mix_at(const Brightness& b, int x, int y) {
       2 * std::abs(n + s - 2 * m) + std::abs(ne + se - 2 * e) + std::abs(nw + sw - 2 * w) >=
       2 * std::abs(e + w - 2 * m) + std::abs(ne + nw - 2 * n) + std::abs(se + sw - 2 * s);
 
-  // the steeper side is where the edge lies
+  // the edge is on the steeper side
   const int before = level ? n : w, after = level ? s : e;
   const int side = std::abs(before - m) >= std::abs(after - m) ? -1 : 1;
   Mix mix{0, level ? 0 : side, level ? side : 0};
@@ -62,7 +62,7 @@ inline Mix mix_at(const Brightness& b, int x, int y) {
     for (; steps < reach_along; ++steps) {
       const int px = x + (level ? way * steps : 0), py = y + (level ? 0 : way * steps);
       if (px < 1 || py < 1 || px >= b.width - 1 || py >= b.height - 1) {
-        steps = reach_along;  // nobody knows where it ends
+        steps = reach_along;  // its end is unknown
         break;
       }
       off = 0.5f * static_cast<float>(b.at(px, py) + b.at(px + mix.dx, py + mix.dy)) - middle;
@@ -72,11 +72,11 @@ inline Mix mix_at(const Brightness& b, int x, int y) {
     if (way < 0 || distance < nearest) nearest = distance, end = off;
     all += distance;
   }
-  // only on that side of the step that the edge cuts
+  // only if the edge crosses the pixel's side of the step
   if (std::abs(end) >= steep && (end < 0) != (static_cast<float>(m) - middle < 0))
     mix.part = 0.5f - nearest / all;
   const float around = static_cast<float>(2 * (n + s + e + w) + ne + nw + se + sw) / 12;
-  // a third beside a level edge, which is as it should be
+  // 1/3 next to a straight edge, which must not be smoothed
   const float unlike = std::abs(around - static_cast<float>(m)) / static_cast<float>(range);
   const float alone = std::clamp((unlike - 0.35f) / 0.65f, 0.0f, 1.0f);
   const float spot = alone * alone * (3 - 2 * alone);
@@ -84,8 +84,8 @@ inline Mix mix_at(const Brightness& b, int x, int y) {
   return mix;
 }
 
-// between each pixel of a row and its four neighbors. Bytes alone, so that many are found at once:
-// few are worth more
+// contrasts between each pixel of a row and its four neighbors. Only bytes, so that compilers
+// vectorize it: few pixels need more work
 inline void find_contrasts(const Brightness& b, int y, std::vector<uint8_t>& contrasts) {
   const uint8_t* row = &b.values[static_cast<size_t>(y) * b.width];
   const uint8_t *above = row - b.width, *below = row + b.width;
@@ -99,8 +99,8 @@ inline void find_contrasts(const Brightness& b, int y, std::vector<uint8_t>& con
   }
 }
 
-/// Mixes pixels at edges with those across, by where along a step of the edge they lie. Colors are
-/// multiplied by alpha where there is alpha.
+/// Mixes pixels at edges with those across the edge, according to their position along a step of
+/// the edge. Colors are premultiplied if there is alpha.
 /// source  Lottes (2009), FXAA
 inline void smooth_edges(Picture& picture) {
   const Brightness b = brightness_of(picture);

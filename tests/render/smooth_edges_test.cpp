@@ -35,7 +35,7 @@ double error(const Picture& picture, double slope) {
 
 }  // namespace
 
-TEST_CASE("slanted edges come nearer to what many samples would show") {
+TEST_CASE("slanted edges approach the result of many samples") {
   for (const double slope : {0.1, 0.2, 0.35, 0.6}) {
     Picture picture = slant(slope);
     const double before = error(picture, slope);
@@ -44,7 +44,7 @@ TEST_CASE("slanted edges come nearer to what many samples would show") {
   }
 }
 
-TEST_CASE("level edges and even areas stay as they are") {
+TEST_CASE("straight edges and uniform areas are unchanged") {
   Picture picture = slant(0);
   const Picture before = picture;
   smooth_edges(picture);

@@ -37,7 +37,7 @@ Vector2f place(const tinyxml2::XMLElement* e, const char* x = "x", const char* y
   return {e->FloatAttribute(x, NAN), e->FloatAttribute(y, NAN)};
 }
 
-// every item as the next element, to the hundredth of a pixel that the file writes
+// compares every item with the next element, to the hundredth of a pixel of the file
 void compare(const Drawing& drawing) {
   tinyxml2::XMLDocument svg;
   REQUIRE(svg.Parse(svg_text(drawing).c_str()) == tinyxml2::XML_SUCCESS);
@@ -45,7 +45,7 @@ void compare(const Drawing& drawing) {
   REQUIRE(root->Name() == std::string("svg"));
   CHECK(root->IntAttribute("width") == drawing.width);
   CHECK(root->IntAttribute("height") == drawing.height);
-  const auto* e = root->FirstChildElement()->NextSiblingElement();  // after the white ground
+  const auto* e = root->FirstChildElement()->NextSiblingElement();  // after the white background
   const auto close = [](const Vector2f& a, const Vector2f& b) {
     CHECK((a - b).cwiseAbs().maxCoeff() < 0.011f);
   };
@@ -99,18 +99,18 @@ const Drawing::Text& text_in(const Drawing& drawing, const std::string& beginnin
 
 }  // namespace
 
-TEST_CASE("a chart and a plot in SVG have every part where the picture has it") {
+TEST_CASE("a chart and a plot in SVG have every part at the same position as in the picture") {
   compare(a_chart());
   compare(a_plot());
 }
 
-TEST_CASE("what a picture shows at an area of the drawing is the area's color") {
+TEST_CASE("the picture shows each filled area of the drawing in the area's color") {
   for (const Drawing& drawing : {a_chart(), a_plot()}) {
     const Picture picture = paint(drawing, letters());
     int compared = 0;
     for (const Drawing::Area& area : bars_of(drawing)) {
       if ((area.high - area.low).minCoeff() < 8) continue;
-      // near a lower corner, where no text or line lies over it
+      // near a lower corner, which no text or line covers
       const Vector2f at(area.low.x() + 3, area.low.y() + 3);
       const auto* pixel = &picture.pixels[3 * (static_cast<size_t>(at.y()) * picture.width +
                                                static_cast<size_t>(at.x()))];
@@ -120,7 +120,8 @@ TEST_CASE("what a picture shows at an area of the drawing is the area's color") 
   }
 }
 
-TEST_CASE("bars of a category stand beside one another around its name, as high as their values") {
+TEST_CASE(
+    "bars of a category stand side by side around its name, with the heights of their values") {
   Plot plot;
   plot.categories = {"one", "two", "three"};
   plot.series = {{.kind = PlotKind::bars, .y = {1, 2, 4}},
@@ -137,7 +138,7 @@ TEST_CASE("bars of a category stand beside one another around its name, as high 
   CHECK(zero - bars[3].low.y() == doctest::Approx(2 * unit).epsilon(1e-3));
   CHECK(bars[4].low.y() == doctest::Approx(zero).epsilon(1e-5));
   CHECK(bars[4].high.y() - zero == doctest::Approx(unit).epsilon(1e-3));
-  // the first category: bars 0 and 3 touch in its middle, under which its name stands
+  // the first category: bars 0 and 3 touch at its center, above its name
   const float middle = (bars[0].high.x() + bars[3].low.x()) / 2;
   CHECK(bars[3].low.x() - bars[0].high.x() == doctest::Approx(1).epsilon(1e-2));
   const auto& name = text_in(drawing, "one");
@@ -162,7 +163,7 @@ TEST_CASE("names of narrow categories are upright and stay within the figure") {
     }
 }
 
-TEST_CASE("what does not fit to categories is refused in a sentence") {
+TEST_CASE("data that do not fit the categories are rejected in one sentence") {
   const auto refused = [](const PlotSeries& series, const char* sentence, PlotAxis x = {}) {
     Plot plot;
     plot.categories = {"a", "b"};

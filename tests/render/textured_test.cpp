@@ -25,7 +25,7 @@ std::shared_ptr<const Image> columns(const std::vector<Rgb>& colors, int width =
 Mesh quads(int count) {
   Mesh mesh;
   for (int i = 0; i < count; ++i) {
-    const double x = i, y = 0.02 * i;  // in no common plane, so that no vertex is shared
+    const double x = i, y = 0.02 * i;  // in different planes, so that no vertex is shared
     mesh.vertices.insert(mesh.vertices.end(), {{x, y, 0}, {x + 1, y, 0}, {x + 1, y, 1}, {x, y, 1}});
     mesh.triangles.push_back({4 * i, 4 * i + 1, 4 * i + 2});
     mesh.triangles.push_back({4 * i, 4 * i + 2, 4 * i + 3});
@@ -33,7 +33,7 @@ Mesh quads(int count) {
   return mesh;
 }
 
-// the whole image on a quad, u times `repeats`
+// the complete image on a quad, with u repeated `repeats` times
 void put(Skin& skin, int texture, float repeats = 1) {
   using V = Eigen::Vector2f;
   const V a(0, 1), b(repeats, 1), c(repeats, 0), d(0, 0);
@@ -60,11 +60,11 @@ RenderOptions options(Quality quality, int quads, int width = 64) {
 
 char strongest(const Color& c) {
   const auto at = std::ranges::max_element(c);
-  const int others = c[0] + c[1] + c[2] - *at;  // of gray, twice as much
+  const int others = c[0] + c[1] + c[2] - *at;  // for gray, twice as much
   return *at > 0.6 * others ? "rgb"[at - c.begin()] : '-';
 }
 
-// the strongest color at the middles of columns
+// the strongest color at the centers of columns
 std::string letters(const Picture& picture, int count) {
   std::string out;
   for (int i = 0; i < count; ++i)
@@ -74,7 +74,9 @@ std::string letters(const Picture& picture, int count) {
 
 }  // namespace
 
-TEST_CASE("an image lies on its triangles as their places say, beyond its edges as it is wrapped") {
+TEST_CASE(
+    "an image lies on its triangles according to their coordinates, and is wrapped beyond its "
+    "edges") {
   REQUIRE_PICTURES();
   const auto image = columns({image_red, image_green});
   for (const Quality quality : {Quality::draft, Quality::paper})
@@ -118,7 +120,7 @@ TEST_CASE("triangles of several textures, and of none, keep theirs in any order"
   }
 }
 
-TEST_CASE("an image of one color looks as triangles of that color do, tinted as well") {
+TEST_CASE("an image of one color looks like triangles of that color, also with a tint") {
   REQUIRE_PICTURES();
   for (const Quality quality : {Quality::draft, Quality::paper})
     for (const float tint : {1.0f, 0.5f}) {
@@ -133,14 +135,13 @@ TEST_CASE("an image of one color looks as triangles of that color do, tinted as 
       int most = 0;
       for (size_t i = 0; i < a.pixels.size(); ++i)
         most = std::max(most, std::abs(a.pixels[i] - b.pixels[i]));
-      CHECK(most <=
-            4);  // colors go by a power of 2.2, images by sRGB, which is lighter in the dark
+      CHECK(most <= 4);  // colors use a power of 2.2, images sRGB, which is lighter for dark colors
       // and it is not the white of the mesh
       CHECK(pixel(a, 32, 32)[0] > pixel(a, 32, 32)[2] + 30);
     }
 }
 
-TEST_CASE("a fine pattern is even from afar") {
+TEST_CASE("a fine pattern is uniform from far away") {
   REQUIRE_PICTURES();
   std::vector<Rgb> stripes;
   for (int i = 0; i < 512; ++i) stripes.push_back(i % 2 ? Rgb{255, 255, 255} : Rgb{0, 0, 0});
@@ -156,7 +157,7 @@ TEST_CASE("a fine pattern is even from afar") {
   CHECK(darkest > 150);
 }
 
-TEST_CASE("a skin that does not fit its mesh is refused") {
+TEST_CASE("a skin that does not fit its mesh is rejected") {
   Skin skin{.textures = {{columns({image_red})}}};
   put(skin, 0);
   const auto refused = [](const Scene& scene, const char* sentence) {

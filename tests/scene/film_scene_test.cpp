@@ -58,7 +58,8 @@ bool holds(const Scene& scene, const Eigen::Vector3d& p) {
 
 }  // namespace
 
-TEST_CASE("a film of one state is its scene, and of a state that stays nothing else is held") {
+TEST_CASE(
+    "a film of one state equals its scene, and a constant state adds no points to the frame") {
   const World world = lifted_tin();
   const World* const one[] = {&world};
   CHECK(make_film_scene(one).meshes.size() == make_scene(world).meshes.size());
@@ -70,12 +71,12 @@ TEST_CASE("a film of one state is its scene, and of a state that stays nothing e
     CHECK(still.meshes[i].framed == make_scene(world).meshes[i].framed);
 }
 
-TEST_CASE("a film holds hand and object wherever they are, and not what nobody touches") {
+TEST_CASE("a film contains hand and object at all times, and not bodies that are never touched") {
   std::vector<std::unique_ptr<World>> states;
   std::vector<const World*> list;
   for (int i = 0; i < 40; ++i) {
     states.push_back(std::make_unique<World>(i == 0 ? lifted_tin() : World(*states.back())));
-    // there and back, farthest between two states that are looked at in detail
+    // there and back, with the farthest point between two sampled states
     const double step = i < 1 ? 0 : i < 22 ? 0.05 : -0.05;
     for (const char* name : {"tin", "palm"}) move_by(*states.back(), name, {0, step, 0});
     list.push_back(states.back().get());
@@ -93,7 +94,7 @@ TEST_CASE("a film holds hand and object wherever they are, and not what nobody t
   CHECK(holds(all, {3, 0, 0}));
 }
 
-TEST_CASE("an object that was lost may leave the film") {
+TEST_CASE("a lost object may leave the film") {
   std::vector<std::unique_ptr<World>> states;
   std::vector<const World*> list;
   for (int i = 0; i < 12; ++i) {

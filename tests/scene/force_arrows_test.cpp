@@ -5,13 +5,14 @@
 using namespace clench;
 using Eigen::Vector3d;
 
-TEST_CASE("a force's arrow ends where it presses, as long as it is strong") {
+TEST_CASE(
+    "a force's arrow ends at its point of application, with a length proportional to the force") {
   const PlacedForce forces[] = {
       {{0.1, 0, 0}, {-2, 0, 0}}, {{0, 0.1, 0}, {0, -1, 0}}, {{0, 0, 1}, {0, 0, 1e-4}}};
   const double scale = force_scale(forces, 0.05);
   CHECK(scale == doctest::Approx(0.025));
   const auto arrows = force_arrows(forces, scale);
-  REQUIRE(arrows.size() == 2);  // the third one would not be seen
+  REQUIRE(arrows.size() == 2);  // the third one would be invisible
   for (int i = 0; i < 2; ++i) {
     CHECK((arrows[i].tip - forces[i].p_W).norm() == 0);
     CHECK((arrows[i].tail - (forces[i].p_W - scale * forces[i].f_W)).norm() < 1e-15);
@@ -21,7 +22,8 @@ TEST_CASE("a force's arrow ends where it presses, as long as it is strong") {
   CHECK(force_scale({}, 0.05) == 1);
 }
 
-TEST_CASE("the longest arrows tell their newtons beyond their tails, the largest first") {
+TEST_CASE(
+    "labels beyond the tails give the forces of the longest arrows in newtons, the largest first") {
   std::vector<PlacedForce> forces;
   for (int i = 1; i <= 12; ++i) forces.push_back({{0, 0, 0.1 * i}, {0.25 * i, 0, 0}});
   forces.push_back({{0, 0, 0}, {1e-4, 0, 0}});
@@ -40,7 +42,7 @@ TEST_CASE("the longest arrows tell their newtons beyond their tails, the largest
   CHECK(force_labels({}, 1).empty());
 }
 
-TEST_CASE("a patch of many points has one arrow, which turns the object as its forces do") {
+TEST_CASE("a patch of many points has one arrow with the same force and torque") {
   std::vector<Contact> contacts;
   std::vector<PlacedForce> forces;
   // the corners of a square face, pressed unevenly along +z
@@ -70,7 +72,7 @@ TEST_CASE("a patch of many points has one arrow, which turns the object as its f
   CHECK((resultants[0].p_W.cross(resultants[0].f_W) - torque).norm() < 1e-15);
   CHECK(resultants[1].p_W == other.p_W);
   CHECK(resultants[1].f_W == forces[4].f_W);
-  // a patch on which nothing presses
+  // a patch without force
   for (PlacedForce& force : forces) force.f_W.setZero();
   CHECK((patch_forces(contacts, forces)[0].p_W - Vector3d(0.01, 0.01, 0)).norm() < 1e-15);
 }

@@ -24,7 +24,7 @@ BodySpec body(const char* name, const Mesh& mesh) {
   return spec;
 }
 
-// a robot that is nothing but its base
+// a robot that consists of its base
 RobotSpec block(const Mesh& mesh) {
   RobotSpec robot;
   robot.name = "block";
@@ -50,7 +50,7 @@ TEST_CASE("bodies come in creation order, each with the color of its kind") {
   CHECK(make_scene(world, {.transparent_objects = false}).meshes[1].opacity == 1);
 }
 
-TEST_CASE("a file's own colors are used unless it is asked not to") {
+TEST_CASE("a file's own colors are used unless that is switched off") {
   World world;
   BodySpec spec = body("tin", box(1, 1, 1));
   spec.appearance.given = true;
@@ -68,9 +68,12 @@ TEST_CASE("a file's own colors are used unless it is asked not to") {
   CHECK(ours.opacity == 1);
 }
 
-TEST_CASE("a cone stands in the middle of each patch of a robot on an object, opening into it") {
+TEST_CASE(
+    "a cone is at the center of each patch between a robot and an object, and opens into the "
+    "object") {
   World world;
-  // a palm under a box, a tenth of the threshold below it, and an obstacle on top as near
+  // a palm under a box, a tenth of the threshold below it, and an obstacle on top at the same
+  // distance
   const double gap = 0.1 * world.contact_threshold();
   const Id<Body> object = world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
   world.add_robot(block(box(0.05, 0.05, 0.05)), Pose::translation({0, 0.01, -0.075 - gap}));
@@ -94,13 +97,13 @@ TEST_CASE("a cone stands in the middle of each patch of a robot on an object, op
                             .index = 0});
   for (size_t i = 0; i < scene.meshes.size(); ++i)
     CHECK(scene.meshes[i].shown == Shown{.kind = Shown::Kind::body, .body = world.bodies()[i]});
-  // a view looks at the patch, whether its cone is drawn or not
+  // a view includes the patch, with or without its cone
   CHECK(!scene.spots.empty());
   CHECK(make_scene(world, {.contacts = false}).cones.empty());
   CHECK(make_scene(world, {.contacts = false}).spots == scene.spots);
 }
 
-TEST_CASE("each face that a robot touches has a patch of its own") {
+TEST_CASE("each face that a robot touches has a separate patch") {
   World world;
   world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
   const double off = 0.075 + 1e-5;
@@ -118,7 +121,7 @@ TEST_CASE("each face that a robot touches has a patch of its own") {
 
 namespace {
 
-// blocks of this width in a row under a tin, each a robot of its own
+// blocks of this width in a row under a tin, each a separate robot
 void add_row(World& world, double side, int count) {
   world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
   for (int i = 0; i < count; ++i)
@@ -128,13 +131,13 @@ void add_row(World& world, double side, int count) {
 
 }  // namespace
 
-TEST_CASE("cones of patches that lie close do not reach each other, and stay in sight") {
+TEST_CASE("cones of neighboring patches do not touch each other, and stay visible") {
   for (const double side : {0.06, 0.01, 0.002}) {
     World world;
     add_row(world, side, 2);
     const std::vector<DrawCone> cones = make_scene(world).cones;
     REQUIRE(cones.size() == 2);
-    // without a neighbor: 0.15 of the object's largest radius
+    // without a neighbor: 0.15 of the object's maximal radius
     const double usual = 0.15 * std::sqrt(3) * 0.05;
     for (const DrawCone& a : cones) {
       CHECK(a.height >= 0.199 * usual);
@@ -148,7 +151,7 @@ TEST_CASE("cones of patches that lie close do not reach each other, and stay in 
   }
 }
 
-TEST_CASE("cones are of one size, or in proportion to friction or to force, as asked") {
+TEST_CASE("cones have one size, or are proportional to friction or to force, as requested") {
   World world;
   add_row(world, 0.01, 3);
   const double usual = 0.15 * std::sqrt(3) * 0.05;
@@ -179,8 +182,7 @@ TEST_CASE("cones are of one size, or in proportion to friction or to force, as a
   CHECK_THROWS_WITH_AS(make_scene(world, options), "picture: forces must be finite numbers", Error);
 }
 
-TEST_CASE(
-    "a view holds the objects that robots touch and the links that hold them, or everything") {
+TEST_CASE("a view contains the touched objects and the links that hold them, or everything") {
   World world;
   world.add_body(body("tin", box(0.1, 0.1, 0.1)), BodyKind::object, {});
   world.add_body(body("far", box(0.1, 0.1, 0.1)), BodyKind::object, Pose::translation({3, 0, 0}));
@@ -190,7 +192,7 @@ TEST_CASE(
       out.push_back(mesh.framed);
     return out;
   };
-  // without contacts all of it
+  // without contacts everything
   CHECK(framed(Framing::contacts) == std::vector{true, true});
   // a palm without links
   world.add_robot(block(box(0.05, 0.05, 0.05)), Pose::translation({0, 0, -0.075 - 1e-5}));
@@ -198,7 +200,7 @@ TEST_CASE(
   CHECK(framed(Framing::all) == std::vector{true, true, true});
 }
 
-TEST_CASE("of a robot that touches, a view holds the links from its palm outward") {
+TEST_CASE("for a robot in contact, a view contains the links from its palm outward") {
   // base, forearm, knuckles, and two fingers of a link each
   RobotSpec robot = block(box(0.1, 0.1, 0.1));
   const auto add = [&](const char* name, int parent, const Eigen::Vector3d& p) {
@@ -229,12 +231,12 @@ TEST_CASE("of a robot that touches, a view holds the links from its palm outward
   const Id<Body> tin = world.add_body(body("tin", box(0.16 - 2e-5, 0.1, 0.1)), BodyKind::object,
                                       Pose::translation({-0.2, 0, 0.5}));
   CHECK(framed() == std::set<std::string>{"knuckles", "left", "right", "tin"});
-  // the forearm touches, and nothing but its base carries more than one branch
+  // the forearm touches, and only the base has several branches
   world.set_pose(tin, Pose::translation({0.1, 0, 0.2}));
   CHECK(framed() == std::set<std::string>{"palm", "forearm", "knuckles", "left", "right", "tin"});
 }
 
-TEST_CASE("links of a robot that is seen through are clear, its base and other robots are not") {
+TEST_CASE("links of a transparent robot are transparent, its base and other robots are not") {
   World world;
   const Id<Robot> first = world.add_robot(two_finger(), {});
   world.add_robot(two_finger(), Pose::translation({1, 0, 0}));
@@ -275,7 +277,7 @@ TEST_CASE("the ground is at the lowest point, unless an obstacle is the floor") 
   CHECK(!scene.ground);
   CHECK(scene.meshes[2].background);
   CHECK(!scene.meshes[1].background);
-  // one that does not reach under everything is none
+  // an obstacle that does not extend below everything is not a floor
   world.add_body(body("far", box(1, 1, 1)), BodyKind::object, Pose::translation({50, 0, 1}));
   CHECK(make_scene(world).ground.value() == doctest::Approx(-0.2));
 }
@@ -300,7 +302,7 @@ TEST_CASE("a camera is passed on") {
 }
 
 TEST_CASE(
-    "patches of soft contacts are drawn when asked for, in the object whichever comes first") {
+    "patches of soft contacts are drawn on request, inside the object for either order of bodies") {
   const Eigen::Vector3d middle(0, 0, 0.02 + 5e-5);
   BodySpec soft = body("ball", ball(0.02, 40, 80));
   soft.elastic_modulus = 1.5e6;
@@ -324,7 +326,7 @@ TEST_CASE(
     for (const DrawMesh& mesh : {surface, rim})
       CHECK(mesh.shown ==
             Shown{.kind = Shown::Kind::site, .body = held, .other = table, .index = 0});
-    // just within the ball, and as round
+    // just inside the ball, and equally round
     for (const Eigen::Vector3d& p : surface.shape->mesh().vertices) {
       const double inside = 0.02 - (surface.X_WM * p - middle).norm();
       CHECK(inside > 0);

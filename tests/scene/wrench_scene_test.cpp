@@ -9,7 +9,7 @@
 using namespace clench;
 using namespace clench::test;
 
-TEST_CASE("a wrench space is seen through, with its ball, its axes and where it is weakest") {
+TEST_CASE("a wrench space is transparent, with its ball, its axes and its weakest direction") {
   const Scene scene = make_wrench_scene({.solid = Shape::make(box(2, 1, 1)),
                                          .axes = {"fx", "fy", "tz"},
                                          .ball = 0.25,
@@ -18,7 +18,7 @@ TEST_CASE("a wrench space is seen through, with its ball, its axes and where it 
   CHECK(scene.meshes[0].opacity < 1);
   CHECK(scene.meshes[1].shape->closed());
   CHECK(scene.meshes[1].shape->radius() == doctest::Approx(0.25));
-  // a sphere of 24 rings lacks half a hundredth of its volume
+  // a sphere of 24 rings lacks half a percent of its volume
   CHECK(scene.meshes[1].shape->solid().volume ==
         doctest::Approx(4 * M_PI / 3 * 0.25 * 0.25 * 0.25).epsilon(0.01));
   REQUIRE(scene.arrows.size() == 4);
@@ -37,14 +37,14 @@ TEST_CASE("a solid without size has axes without numbers") {
   CHECK(scene.labels.size() == 3);
 }
 
-TEST_CASE("without a ball or a weakest direction there is none") {
+TEST_CASE("a ball and a weakest direction are shown only if they exist") {
   const Scene scene = make_wrench_scene(
       {.solid = Shape::make(box(1, 1, 1)), .weakest = Eigen::Vector3d::Zero().eval()});
   CHECK(scene.meshes.size() == 1);
   CHECK(scene.arrows.size() == 3);
 }
 
-TEST_CASE("numbers stand at round steps along the axes, and the ball tells its radius") {
+TEST_CASE("numbers are at round steps along the axes, and the ball shows its radius") {
   for (const double scale : {1.0, 1e-3, 40.0}) {
     const Scene scene = make_wrench_scene({.solid = Shape::make(box(2 * scale, scale, scale)),
                                            .axes = {"fx", "fy", "fz"},
@@ -56,7 +56,7 @@ TEST_CASE("numbers stand at round steps along the axes, and the ball tells its r
     REQUIRE(scene.caption.size() == 2);
     CHECK(scene.caption[0] == "a title");
     CHECK(scene.caption[1].starts_with(fmt::format("epsilon {:.4g} N", 0.25 * scale)));
-    // a tick each, on its axis, at the place that its number says
+    // one tick each, on its axis, at the position of its number
     REQUIRE(scene.cones.size() == scene.labels.size() - 4);
     std::set<std::pair<int, double>> seen;
     for (size_t i = 0; i < scene.cones.size(); ++i) {
@@ -70,7 +70,7 @@ TEST_CASE("numbers stand at round steps along the axes, and the ball tells its r
       seen.insert({axis, value});
     }
     CHECK(seen.size() == scene.cones.size());
-    // the solid reaches from -1 to 1, -0.5 to 0.5 of the scale: steps of a half
+    // the solid spans from -1 to 1, -0.5 to 0.5 of the scale: steps of a half
     for (int axis = 0; axis < 3; ++axis) CHECK(seen.count({axis, 0.5 * scale}) == 1);
     CHECK(seen.count({0, -scale}) == 1);
   }

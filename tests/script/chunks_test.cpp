@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A compiled chunk in a file, gone afterwards.
+/// A compiled chunk in a file, removed afterwards.
 class Compiled {
  public:
   Compiled() {
@@ -30,7 +30,7 @@ class Compiled {
   fs::path path_ = folder_.path() / "chunk.lua";
 };
 
-// the claims about load and its kin, as a chunk that fails where one does not hold
+// the claims about load and similar functions, as a chunk that fails if one does not hold
 constexpr const char* claims = R"lua(
   local path, marked = ...
   local bytes = string.dump(function() return 42 end)
@@ -80,7 +80,7 @@ void write_text(const std::string& path, const std::string& text) { std::ofstrea
 
 }  // namespace
 
-TEST_CASE("a compiled chunk is refused wherever one could be loaded, by its file's name") {
+TEST_CASE("a compiled chunk is rejected wherever it could be loaded, with its file's name") {
   const Compiled compiled;
   State state;
   const std::string file = compiled.name() + ".claims";
@@ -92,15 +92,14 @@ TEST_CASE("a compiled chunk is refused wherever one could be loaded, by its file
         compiled.name() + ": bytecode is not run; expected Lua text");
 }
 
-TEST_CASE("a world in Lua that is a compiled chunk is refused in every state") {
+TEST_CASE("a world in Lua that is a compiled chunk is rejected in every state") {
   const Compiled compiled;
   Script lua;
   CHECK(lua.text("clench.load '" + compiled.name() + "'") ==
         "test:1: " + compiled.name() + ": bytecode is not run; expected Lua text");
 }
 
-TEST_CASE(
-    "a host's state refuses bytecode when it asks for that, before or after Clench is opened") {
+TEST_CASE("a host's state rejects bytecode on request, before or after Clench is opened") {
   const Compiled compiled;
   for (const bool before : {true, false}) {
     CAPTURE(before);
@@ -123,7 +122,9 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a host that asks too late is told, and one that does not ask keeps Lua's own load") {
+TEST_CASE(
+    "a host that requests this too late gets an error, and without the request Lua's own load is "
+    "kept") {
   Script lua;
   CHECK(lua.text("load(string.dump(load 'return 42'))()") == "42");
   lua.run("table.insert(package.searchers, 1, print)");

@@ -4,7 +4,7 @@
 
 using namespace clench;
 
-TEST_CASE("a deadline that has passed withdraws its own stop") {
+TEST_CASE("an expired deadline withdraws its own stop request") {
   const auto bar = std::make_shared<Bar>();
   Deadline deadline(bar, 0);
   while (!bar->stop_asked()) std::this_thread::yield();
@@ -12,7 +12,7 @@ TEST_CASE("a deadline that has passed withdraws its own stop") {
   CHECK_FALSE(bar->stop_asked());
 }
 
-TEST_CASE("an interrupt remains after a deadline, whichever comes first") {
+TEST_CASE("an interrupt remains after a deadline, in either order") {
   for (const bool first : {true, false}) {
     CAPTURE(first);
     const auto bar = std::make_shared<Bar>();
@@ -29,7 +29,7 @@ TEST_CASE("an interrupt remains after a deadline, whichever comes first") {
   }
 }
 
-TEST_CASE("a deadline closed before its time asks for nothing") {
+TEST_CASE("a deadline closed before its time requests no stop") {
   const auto bar = std::make_shared<Bar>();
   Deadline deadline(bar, 1e9);
   CHECK_FALSE(deadline.close());

@@ -38,7 +38,7 @@ int throws_long(lua_State*) { throw Error("begins" + std::string(10000, 'x') + "
 }  // namespace
 
 TEST_CASE(
-    "an engine's exception becomes a Lua error with the script's line, and C++ objects are "
+    "an exception of the engine becomes a Lua error with the script's line, and C++ objects are "
     "destroyed") {
   Script lua;
   lua_register(lua.L, "f", guarded<throws_error>);
@@ -48,7 +48,7 @@ TEST_CASE(
   CHECK(alive == 0);
 }
 
-TEST_CASE("an error of a script's function passes through C++ unchanged, whatever its value") {
+TEST_CASE("an error of a script's function passes through C++ unchanged, with any value") {
   Script lua;
   lua_register(lua.L, "f", guarded<calls_back>);
   CHECK(lua.run("return f(function() return 7 end)") == "7");
@@ -74,8 +74,7 @@ TEST_CASE("endless recursion through C++ is an error") {
   CHECK(alive == 0);
 }
 
-TEST_CASE(
-    "of a message that nobody reads to its end both ends are told and no control characters") {
+TEST_CASE("a very long message is reduced to its beginning and end, without control characters") {
   Script lua;
   lua_register(lua.L, "f", guarded<throws_long>);
   const auto message = lua.run("f()");
@@ -85,7 +84,8 @@ TEST_CASE(
   CHECK(message.ends_with("x? ends"));
 }
 
-TEST_CASE("whatever else is thrown is told with the entry's name and no memory is a sentence too") {
+TEST_CASE(
+    "other exceptions are reported with the entry's name, and lack of memory in one sentence") {
   Script lua;
   const auto thrown = [&](lua_CFunction f) {
     lua_register(lua.L, "f", f);

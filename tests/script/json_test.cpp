@@ -2,8 +2,7 @@
 
 using clench::test::Script;
 
-TEST_CASE(
-    "JSON comes back as it went: numbers to the bit, integers as integers, floats as floats") {
+TEST_CASE("JSON reproduces values: numbers bit-exactly, integers as integers, floats as floats") {
   Script lua;
   CHECK(lua.run(R"(
     local json = clench.json
@@ -26,7 +25,7 @@ TEST_CASE("equal values give equal text: keys are sorted") {
         "{\n  \"a\": [\n    1,\n    2\n  ],\n  \"b\": []\n}");
 }
 
-TEST_CASE("text of any script passes, and escapes are read") {
+TEST_CASE("text of any writing system is preserved, and escapes are read") {
   Script lua;
   CHECK(lua.text(R"(clench.json.encode 'a"\\\n\0\127é€😀')") == R"("a\"\\\n\u0000\u007fé€😀")");
   CHECK(lua.text(R"==(clench.json.decode '"\\u00e9\\u20AC\\ud83d\\ude00\\/\\t"')==") == "é€😀/\t");
@@ -34,7 +33,7 @@ TEST_CASE("text of any script passes, and escapes are read") {
   CHECK(lua.text("clench.json.decode '\\xEF\\xBB\\xBF [1]'[1]") == "1");
 }
 
-TEST_CASE("values of ours are written as what makes them again") {
+TEST_CASE("values of Clench are written as the arguments that construct them") {
   Script lua;
   CHECK(lua.text("clench.json.encode{clench.vec3(1, 2, 3)}") == "[[1.0,2.0,3.0]]");
   CHECK(lua.text("clench.pose(clench.json.decode(clench.json.encode(clench.pose{rpy = {1, 2, "
@@ -52,7 +51,7 @@ TEST_CASE("a null is absent from an object and kept in a list") {
   CHECK(lua.text("clench.json.encode(clench.json.decode '{\"a\": null}')") == "{}");
 }
 
-TEST_CASE("what JSON cannot hold is refused by its place") {
+TEST_CASE("data that JSON cannot represent are rejected with their place") {
   Script lua;
   const auto refused = [&](const std::string& value) {
     return lua.text("clench.json.encode(" + value + ")");
@@ -87,7 +86,7 @@ TEST_CASE("what JSON cannot hold is refused by its place") {
                 "end}))") == "mine");
 }
 
-TEST_CASE("a text that is not JSON is refused by line and column") {
+TEST_CASE("a text that is not JSON is rejected with line and column") {
   Script lua;
   const auto refused = [&](const std::string& text) {
     return lua.text("clench.json.decode [==[" + text + "]==]");
@@ -120,7 +119,7 @@ TEST_CASE("a text that is not JSON is refused by line and column") {
   CHECK(lua.text("clench.json.decode '1e-999'") == "0.0");
 }
 
-TEST_CASE("a text cut short anywhere is refused or read, never worse") {
+TEST_CASE("a text truncated anywhere is rejected or read, and never crashes") {
   Script lua;
   CHECK(lua.run(R"(
     local text = clench.json.encode{a = {1, 2.5, "x\n😀", true, {b = {}}}, c = clench.pose{rpy = {1, 2, 3}}}

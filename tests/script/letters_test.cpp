@@ -4,7 +4,7 @@
 
 using namespace clench;
 
-TEST_CASE("a font that is missing is told once a state, by its name") {
+TEST_CASE("a missing font is reported once per state, by its name") {
   const Font missing("no/such/folder/font.ttf"), font;
   test::Script first, second;
   for (test::Script* script : {&first, &second}) {

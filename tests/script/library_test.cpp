@@ -11,7 +11,7 @@
 using clench::test::Script;
 namespace fs = std::filesystem;
 
-TEST_CASE("a name that the module does not have is answered by the nearest") {
+TEST_CASE("an unknown name of the module is answered with the nearest name") {
   Script lua;
   CHECK(lua.text("clench.psoe") == "test:1: clench has no 'psoe'; did you mean 'pose'?");
   CHECK(lua.text("clench.json.encod") ==
@@ -19,7 +19,7 @@ TEST_CASE("a name that the module does not have is answered by the nearest") {
   CHECK(lua.text("rawget(clench, 'psoe')") == "nil");
 }
 
-TEST_CASE("the standard library is one, by field and by require") {
+TEST_CASE("the standard library is the same by field and by require") {
   Script lua;
   CHECK(lua.text("clench.show == require 'clench.show'") == "true");
   CHECK(lua.text("require 'clench.show' == clench.show") == "true");
@@ -27,7 +27,7 @@ TEST_CASE("the standard library is one, by field and by require") {
   const auto message = lua.text("require 'clench.nothing'");
   CHECK(message.find("no module 'clench.nothing' in clench's standard library") !=
         std::string::npos);
-  // bare names are the command's alone
+  // bare names exist in the command only
   CHECK(lua.text("pcall(require, 'show')").starts_with("false"));
 }
 
@@ -40,7 +40,7 @@ TEST_CASE("a state without the standard libraries still opens") {
   lua_close(L);
 }
 
-TEST_CASE("two states know nothing of one another") {
+TEST_CASE("two states are independent of each other") {
   Script a, b;
   a.run("rawset(clench, 'pose', 1)  clench.log.level 'quiet'");
   CHECK(b.text("clench.pose{}.position") == "(0, 0, 0)");
@@ -58,7 +58,7 @@ TEST_CASE("random numbers are the engine's own") {
         "test:1: random:uniform: expected low <= high, got 2 and 1");
 }
 
-TEST_CASE("random integers reach both ends, and the widest range too") {
+TEST_CASE("random integers include both bounds, also of the widest range") {
   Script lua;
   CHECK(lua.run(R"(
     local r, seen = clench.random(1), {}
@@ -67,7 +67,7 @@ TEST_CASE("random integers reach both ends, and the widest range too") {
            math.type(r:integer(math.mininteger, math.maxinteger)))") == "true, integer");
 }
 
-TEST_CASE("the log goes where it is told, from the level it is told") {
+TEST_CASE("the log is written to the given sink, from the given level") {
   Script lua;
   CHECK(lua.run(R"(
     local said = {}
@@ -85,7 +85,7 @@ TEST_CASE("the log goes where it is told, from the level it is told") {
                 "error('text', 0) end}))") == "text");
 }
 
-TEST_CASE("the catalog lists what lies below the folder that CLENCH_MODELS names, sorted") {
+TEST_CASE("the catalog lists the contents of the folder named by CLENCH_MODELS, sorted") {
   const clench::test::TemporaryFolder folder;
   const fs::path home = folder.path();
   for (const char* name :

@@ -54,7 +54,7 @@ TEST_CASE("the loop calls functions of descriptors, and coroutines wait for them
   const std::string writer = std::to_string(pipe.ends[1]);
   CHECK(script.run("return loop.wait(" + writer + ", 1, 'writable')") == "true");
   CHECK(script.run("return loop.wait(" + writer + ", 0.01, 'readable')") == "false");
-  // the other side's end counts as ready
+  // the end of the other side counts as ready
   CHECK(script.run("ended = false loop.on(" + descriptor + ", function() ended = true end)") == "");
   pipe.close_writer();
   CHECK(script.run("loop.run(0) return ended") == "true");
@@ -71,7 +71,7 @@ TEST_CASE("an error of a descriptor's function ends the run, and the watch stays
   CHECK(script.run("clench.loop.run(1)").find("in the watch") != std::string::npos);
 }
 
-TEST_CASE("a host's own loop polls the descriptor of the script's") {
+TEST_CASE("a host's own loop polls the descriptor of the script's loop") {
   Script script;
   const int loop = std::stoi(script.run("return clench.loop.descriptor()"));
   CHECK(!is_readable(loop, 0));

@@ -14,7 +14,7 @@ TEST_CASE("a vec3 adds, scales and compares like a vector") {
   CHECK(lua.text("#clench.vec3()") == "3");
 }
 
-TEST_CASE("a vec3 is indexed and walked like a list of three") {
+TEST_CASE("a vec3 is indexed and iterated like a list of three") {
   Script lua;
   CHECK(lua.text("clench.vec3(4, 5, 6)[2]") == "5.0");
   CHECK(lua.text("clench.vec3(4, 5, 6)[4]") == "nil");
@@ -24,7 +24,7 @@ TEST_CASE("a vec3 is indexed and walked like a list of three") {
         "15.0");
 }
 
-TEST_CASE("what a vec3 cannot do is said") {
+TEST_CASE("operations that a vec3 does not support are reported") {
   Script lua;
   CHECK(lua.text("clench.vec3(1, 2, 3) * clench.vec3(1, 2, 3)") ==
         "test:1: vec3: two vectors have no product *; use a:dot(b) or a:cross(b)");
@@ -44,7 +44,7 @@ TEST_CASE("what a vec3 cannot do is said") {
         std::string::npos);
 }
 
-TEST_CASE("a dot where a colon belongs is pointed out") {
+TEST_CASE("a dot instead of a colon is pointed out") {
   Script lua;
   CHECK(lua.run("local v = clench.vec3(1, 2, 3) return v.dot{1, 2, 3}") ==
         "test:1: vec3:dot: expected a vec3 before the colon, got a table of 3; use vec3:dot(...)");
@@ -55,9 +55,9 @@ TEST_CASE("a dot where a colon belongs is pointed out") {
         std::string::npos);
 }
 
-TEST_CASE("a pose made from quat, matrix or rpy of one rotation is one pose") {
+TEST_CASE("quat, matrix and rpy of one rotation give one pose") {
   Script lua;
-  // a quarter turn about z; the routes differ by roundings of a few ulp
+  // a quarter turn about z; the conversions differ by rounding errors of a few ulp
   CHECK(lua.run(R"(
     local s = math.sqrt(0.5)
     local a = clench.pose{xyz = {1, 2, 3}, quat = {s, 0, 0, s}}
@@ -72,7 +72,7 @@ TEST_CASE("a pose made from quat, matrix or rpy of one rotation is one pose") {
     return "same")") == "same");
 }
 
-TEST_CASE("a pose gives its quaternion back to the bit") {
+TEST_CASE("a pose returns its quaternion bit-exactly") {
   Script lua;
   CHECK(lua.run(R"(
     local q = clench.pose{quat = {0.5, 0.5, -0.5, 0.5}}.quat
@@ -84,7 +84,7 @@ TEST_CASE("a pose gives its quaternion back to the bit") {
       "true");
 }
 
-TEST_CASE("rpy comes back, also where pitch is a right angle") {
+TEST_CASE("rpy is reproduced, also if pitch is a right angle") {
   Script lua;
   // atan2 of products of three factors, each rounded: a few 1e-16
   CHECK(lua.run(R"(
@@ -96,7 +96,7 @@ TEST_CASE("rpy comes back, also where pitch is a right angle") {
     return "same")") == "same");
 }
 
-TEST_CASE("poses chain and take points along") {
+TEST_CASE("poses compose and transform points") {
   Script lua;
   CHECK(lua.text("clench.pose{xyz = {1, 0, 0}} * clench.pose{xyz = {0, 2, 0}} * {0, 0, 3}") ==
         "(1, 2, 3)");
@@ -105,7 +105,7 @@ TEST_CASE("poses chain and take points along") {
   CHECK(lua.text("clench.pose(clench.pose{xyz = {1, 2, 3}}).position") == "(1, 2, 3)");
 }
 
-TEST_CASE("a pose that is none is refused with what was expected") {
+TEST_CASE("an invalid pose is rejected with the expected values") {
   Script lua;
   CHECK(lua.text("clench.pose{quat = {1, 0, 0}}") ==
         "test:1: clench.pose: quat: expected 4 numbers, got 3");
@@ -141,7 +141,7 @@ TEST_CASE("a pose that is none is refused with what was expected") {
   CHECK(lua.text("2 * clench.pose{}") == "test:1: pose: left of *: expected a pose, got 2");
 }
 
-TEST_CASE("every value prints what it is") {
+TEST_CASE("every value prints its contents") {
   Script lua;
   CHECK(lua.text("clench.vec3(-0.0, 1e-3, 123456.789)") == "(0, 0.001, 123457)");
   CHECK(lua.text("clench.pose{xyz = {1, 2, 3}}") == "pose{xyz = {1, 2, 3}, quat = {1, 0, 0, 0}}");

@@ -12,7 +12,7 @@ namespace {
 
 int living = 0;
 
-// not trivial, and aligned beyond what Lua gives
+// not trivial, and with a larger alignment than Lua provides
 struct alignas(64) Probe {
   explicit Probe(int n) : number(n) { ++living; }
   Probe(Probe&& other) noexcept : number(other.number) { ++living; }
@@ -20,7 +20,7 @@ struct alignas(64) Probe {
   int number;
 };
 
-// says that it owns a megabyte
+// declares that it owns a megabyte
 struct Heavy {
   Heavy() { ++living; }
   Heavy(Heavy&&) noexcept { ++living; }
@@ -115,13 +115,14 @@ TEST_CASE("an entry knows its name") {
   CHECK(lua.run("local p = probe(4) return p:who(), p.who_field") == "tip:who, tip.who_field");
 }
 
-TEST_CASE("a class has its parent's fields and methods, under its own name, and may replace them") {
+TEST_CASE(
+    "a class inherits its parent's fields and methods, under its own name, and may replace them") {
   Probes lua;
   CHECK(lua.run("local c = child(3) return c.number, c:who(), c:twice()") ==
         "3, kid:who, kid:twice");
 }
 
-TEST_CASE("values are destroyed once: by the collector, by <close>, or never again") {
+TEST_CASE("values are destroyed exactly once: by the collector, or by <close>") {
   {
     Probes lua;
     CHECK(lua.run("for i = 1, 100 do probe(i) end collectgarbage() collectgarbage()") == "");
@@ -133,7 +134,7 @@ TEST_CASE("values are destroyed once: by the collector, by <close>, or never aga
                   "return pcall(w.restore, w, s)") ==
           "false, test:1: world:restore: snapshot: expected a snapshot, got one that was closed");
     CHECK(living == 0);
-    // the finalizer, called by hand, twice and with strangers
+    // the finalizer, called directly, twice and with foreign values
     CHECK(lua.run("local p = probe(1) local gc = debug.getmetatable(p).__gc gc(p) gc(p) gc(1) gc() "
                   "gc(io.stdout)") == "");
     CHECK(living == 0);
@@ -143,12 +144,12 @@ TEST_CASE("values are destroyed once: by the collector, by <close>, or never aga
   CHECK(living == 0);
 }
 
-TEST_CASE("a metatable put on a stranger does not make it ours") {
+TEST_CASE("the metatable of a class does not make a foreign value an object of the class") {
   Probes lua;
   CHECK(lua.run("local v = clench.vec3(1, 2, 3) debug.setmetatable(v, "
                 "debug.getmetatable(probe(1))) return v.number")
             .find("tip.number: expected a probe") == std::string::npos);
-  // both have a class's metatable, neither is what it says
+  // both have a class's metatable, but not its contents
   CHECK(lua.run("local v = clench.vec3(1, 2, 3) debug.setmetatable(v, "
                 "debug.getmetatable(probe(1))) return v:twice()")
             .find("closed") != std::string::npos);
@@ -158,7 +159,7 @@ TEST_CASE("a metatable put on a stranger does not make it ours") {
   CHECK(lua.run("return getmetatable(probe(1))") == "probe");
 }
 
-TEST_CASE("the storage is aligned as its type asks") {
+TEST_CASE("the storage has the alignment of its type") {
   Probes lua;
   lua.run("p = {} for i = 1, 50 do p[i] = probe(i) end");
   lua_settop(lua.L, 0);
@@ -173,7 +174,7 @@ TEST_CASE("the storage is aligned as its type asks") {
   }
 }
 
-TEST_CASE("what values own is collected though Lua sees none of it") {
+TEST_CASE("memory owned by values is collected although Lua does not see it") {
   Probes lua;
   const std::string loop =
       "local most = 0 for i = 1, 500 do local h = heavy() most = math.max(most, living()) end "
@@ -181,11 +182,11 @@ TEST_CASE("what values own is collected though Lua sees none of it") {
   for (const char* mode : {"incremental", "generational"}) {
     CAPTURE(mode);
     lua.run("collectgarbage '" + std::string(mode) + "'");
-    // 64 MB may gather, and as much as Lua's own memory twice
+    // up to 64 MB accumulate, and up to twice Lua's own memory
     CHECK(std::stoi(lua.run(loop)) <= 70);
     CHECK(living == 0);
   }
-  // what is held stays, and is no reason to collect anew with every value
+  // values in use stay, and do not cause a collection with every new value
   CHECK(lua.run("held = {} for i = 1, 300 do held[i] = heavy() end local cycles = 0 "
                 "setmetatable({}, {__gc = function(o) cycles = cycles + 1 "
                 "setmetatable({}, getmetatable(o)) end}) "
@@ -193,16 +194,16 @@ TEST_CASE("what values own is collected though Lua sees none of it") {
         "true, true");
 }
 
-TEST_CASE("values that are closed, or a stopped collector, are left to themselves") {
+TEST_CASE("closed values and a stopped collector cause no collection") {
   Probes lua;
   CHECK(lua.run("collectgarbage 'stop' for i = 1, 200 do heavy() end return living()") == "200");
   CHECK(lua.run("collectgarbage 'restart' heavy() return living()") == "1");
-  // closed values own nothing: no collection touches the others
+  // closed values own nothing: the others are not collected
   CHECK(lua.run("collectgarbage() for i = 1, 30 do heavy() end "
                 "for i = 1, 300 do local h <close> = heavy() end return living()") == "30");
 }
 
-TEST_CASE("finalizers that make values while they are collected do no harm") {
+TEST_CASE("finalizers that create values during a collection are safe") {
   Probes lua;
   CHECK(lua.run("local n = 0 "
                 "for i = 1, 300 do setmetatable({}, {__gc = function() n = n + 1 heavy() error 'x' "

@@ -20,10 +20,10 @@ class Script {
   Script(const Script&) = delete;
   Script& operator=(const Script&) = delete;
 
-  /// what an expression prints, or the message of its error
+  /// output of an expression, or the message of its error
   std::string text(const std::string& expression) { return run("return " + expression); }
 
-  /// what a chunk returns, printed, or the message of its error
+  /// values returned by a chunk, printed, or the message of its error
   std::string run(const std::string& chunk) {
     lua_settop(L, 0);
     if (luaL_loadbufferx(L, chunk.data(), chunk.size(), "=test", "t") == LUA_OK)

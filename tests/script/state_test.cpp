@@ -23,7 +23,7 @@ static bool says(const std::string& text, const std::string& part) {
   return found;
 }
 
-TEST_CASE("an error has message and traceback, whatever the error value is") {
+TEST_CASE("an error has message and traceback for any error value") {
   State state;
   CHECK(says(error_of(state, "local function f() error 'no' end f()"),
              "test:1: no\nstack traceback:"));
@@ -69,7 +69,7 @@ TEST_CASE("no script ends the process: recursion, memory, patterns, finalizers, 
       says(error_of(state, "string = nil print = nil error 'still explained'"), "still explained"));
 }
 
-TEST_CASE("a finalizer that runs as the state closes may fail") {
+TEST_CASE("a finalizer that runs when the state closes may fail") {
   State state;
   state.set_quiet();
   CHECK(state.run_code("x = setmetatable({}, {__gc = function() error 'at the end' end})", "=test")
@@ -89,7 +89,7 @@ TEST_CASE("a file gets its arguments as arg and as ...") {
   CHECK(says(state.run_file(path.string(), {}).error, "cannot open " + path.string()));
 }
 
-TEST_CASE("a file that is no Lua is refused, compiled chunks too") {
+TEST_CASE("a file that is not Lua is rejected, compiled chunks included") {
   const clench::test::TemporaryFolder folder;
   const fs::path path = folder.path() / "state_binary.lua";
   std::ofstream(path, std::ios::binary) << "\x1bLua rubbish";
@@ -98,7 +98,7 @@ TEST_CASE("a file that is no Lua is refused, compiled chunks too") {
   fs::remove(path);
 }
 
-TEST_CASE("clench is a global and a module, the standard library has bare names") {
+TEST_CASE("clench is a global and a module, and the standard library has bare names") {
   State state;
   CHECK(state
             .run_code("assert(clench == require 'clench') assert(require 'show' == clench.show)",
@@ -107,7 +107,7 @@ TEST_CASE("clench is a global and a module, the standard library has bare names"
   CHECK(says(error_of(state, "clench.grsp()"), "clench has no 'grsp'"));
 }
 
-TEST_CASE("the console runs expressions and statements, and knows an unfinished one") {
+TEST_CASE("the console runs expressions and statements, and detects unfinished ones") {
   State state;
   using Line = State::Line;
   CHECK(state.evaluate("x = 5") == Line::done);
@@ -119,11 +119,11 @@ TEST_CASE("the console runs expressions and statements, and knows an unfinished 
   CHECK(state.run_code("assert(x == 5)", "=test").ok);
 }
 
-// runs code that never ends by itself, and interrupts it
+// runs code that never ends, and interrupts it
 static State::Result interrupted(State& state, const std::string& code) {
   std::atomic<bool> done = false;
   std::thread watch([&] {
-    // the first may come before the chunk runs, and is then lost with its hook
+    // an interrupt before the chunk runs is lost, so it is repeated
     while (!done) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
       if (!done) state.interrupt();
@@ -135,7 +135,7 @@ static State::Result interrupted(State& state, const std::string& code) {
   return result;
 }
 
-TEST_CASE("an interruption ends an endless loop, in coroutines and their kin too") {
+TEST_CASE("an interrupt ends an endless loop, also in coroutines and protected calls") {
   State state;
   for (const char* code :
        {"while true do end", "coroutine.wrap(function() while true do end end)()",
@@ -152,9 +152,9 @@ TEST_CASE("an interruption ends an endless loop, in coroutines and their kin too
   CHECK(state.run_code("local n = 0 for i = 1, 1e5 do n = n + i end", "=test").ok);
 }
 
-TEST_CASE("what catches an interruption has half a second to end") {
+TEST_CASE("a script that catches an interrupt has half a second to end") {
   State state;
-  // by a thread, as Ctrl-C comes at any time
+  // from a thread, because Ctrl-C comes at any time
   std::thread once([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     state.interrupt();
@@ -176,7 +176,7 @@ TEST_CASE("what catches an interruption has half a second to end") {
   CHECK(says(loop.error, "interrupted"));
 }
 
-TEST_CASE("an interruption ends what the engine is at") {
+TEST_CASE("an interrupt ends long calls of the engine") {
   State state;
   const std::string ball = R"(
     local clench, contacts = require "clench", {}
@@ -187,7 +187,7 @@ TEST_CASE("an interruption ends what the engine is at") {
     end
     local space = clench.wrench_space {contacts = contacts, edges = 8}
   )";
-  // each would take seconds, and then end with something else
+  // each would take seconds, and then end with a different result
   for (const char* code :
        {"space:volume()", "clench.wrench_space {contacts = contacts, edges = 'exact'}:volume()",
         "clench.render(clench.world(), {size = {4000, 4000}, samples = 60}) error 'done'"}) {
@@ -202,13 +202,13 @@ TEST_CASE("an interruption ends what the engine is at") {
   CHECK(says(caught.error, "interrupted"));
 }
 
-TEST_CASE("parallel work that is interrupted tells what is done before the error goes on") {
+TEST_CASE("interrupted parallel work reports its results before the error propagates") {
   State state;
   std::thread once([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     state.interrupt();
   });
-  // the first item never ends, the others have ended by then
+  // the first item never ends, and the others have ended by then
   const auto result = state.run_code(R"(
     told = {}
     require("clench").parallel.map(function(i) while i == 1 do end return i end, {1, 2, 3, 4, 5},
@@ -224,7 +224,7 @@ TEST_CASE("parallel work that is interrupted tells what is done before the error
   CHECK_MESSAGE(told.ok, told.error);
 }
 
-TEST_CASE("coroutines are Lua's own in all else") {
+TEST_CASE("apart from interrupts, coroutines behave as in Lua") {
   State state;
   const auto result = state.run_code(R"(
     local co = coroutine.create(function(a) local b = coroutine.yield(a + 1) return b * 2 end)

@@ -40,7 +40,7 @@ struct Options : Script {
 
 }  // namespace
 
-TEST_CASE("what is not given keeps its default, and what is given is read") {
+TEST_CASE("missing options keep their defaults, and given ones are read") {
   Options f;
   const std::string defaults = "1 8 false L1 0 0 0 0 hand 0 false";
   CHECK(f("()") == defaults);
@@ -54,14 +54,14 @@ TEST_CASE("what is not given keeps its default, and what is given is read") {
         "1 8 false L1 3 4 0 0 hand 0 false");
 }
 
-TEST_CASE("a misspelt key is named, and the near one offered") {
+TEST_CASE("a misspelt key is named, with a suggestion") {
   Options f;
   CHECK(f("{sped = 1}") == "hand:autograsp: unknown key 'sped'; did you mean 'speed'?");
   CHECK(f("{1}") == "hand:autograsp: unknown key [1]");
   CHECK(f("{zzz = 1, yyyy = 2}") == "hand:autograsp: unknown key 'yyyy'");
 }
 
-TEST_CASE("what is wrong is said with subject, expected and got") {
+TEST_CASE("errors are reported with subject, expected and got") {
   Options f;
   CHECK(f("(3)") == "hand:autograsp: expected a table of options, got 3");
   CHECK(f("{speed = 'fast'}") == "hand:autograsp: speed: expected a number, got 'fast'");
@@ -92,19 +92,19 @@ TEST_CASE("what is wrong is said with subject, expected and got") {
   CHECK(f("{seed = {}}") == "hand:autograsp: seed: expected an integer, got an empty table");
 }
 
-TEST_CASE("options are read raw: a metatable's code does not run") {
+TEST_CASE("options are read raw: code of a metatable does not run") {
   Options f;
   CHECK(f("(setmetatable({}, {__index = function() error 'ran' end}))") ==
         "1 8 false L1 0 0 0 0 hand 0 false");
 }
 
-TEST_CASE("a long text is cut short in a message") {
+TEST_CASE("a long text is shortened in a message") {
   Options f;
   CHECK(f("{speed = ('x'):rep(1e6)}") ==
         "hand:autograsp: speed: expected a number, got '" + std::string(37, 'x') + "...'");
 }
 
-TEST_CASE("a key is known whole, or not at all") {
+TEST_CASE("only complete keys match") {
   Options f;
   CHECK(f("{['speed\\0x'] = 2}") == "hand:autograsp: unknown key 'speed?x'; did you mean 'speed'?");
 }

@@ -1,4 +1,4 @@
--- Run by `clench view --script` in window_test.sh: writes what happens in the window, and where its widgets are.
+-- Run by `clench view --script` in window_test.sh: prints events of the window and the positions of its widgets.
 local folder = os.getenv "WINDOW_TEST"
 local function write(name, text)
   local file <close> = assert(io.open(folder .. "/" .. name .. ".new", "w"))

@@ -33,7 +33,7 @@ using Sentences = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("what nobody gives is told of each body that has it") {
+TEST_CASE("assumed values are reported for each body that has them") {
   BodySpec full = named("full", test::box(1, 1, 1)), weightless = full, bare = full, frame;
   full.mass_from = full.material_from = Origin::file;
   weightless.name = "weightless", weightless.material_from = Origin::file;
@@ -54,7 +54,7 @@ TEST_CASE("what nobody gives is told of each body that has it") {
   CHECK(Told({full}).notes.empty());
 }
 
-TEST_CASE("an inertia is that of a ball only with a warning") {
+TEST_CASE("an inertia is assumed to be that of a ball only with a warning") {
   Mesh open = test::box(1, 1, 1);
   open.triangles.pop_back();
   BodySpec sheet = named("sheet", open), closed = named("closed", test::box(1, 1, 1));
@@ -67,7 +67,7 @@ TEST_CASE("an inertia is that of a ball only with a warning") {
   CHECK(Told({closed, sheet}).suspected.empty());
 }
 
-TEST_CASE("of obstacles masses and materials are told, and no inertia") {
+TEST_CASE("for obstacles, assumed masses and materials are reported, but no inertia") {
   Mesh open = test::box(1, 1, 1);
   open.triangles.pop_back();
   BodySpec full = named("full", test::box(1, 1, 1)), wall = named("wall", open);

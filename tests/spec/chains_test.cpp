@@ -4,7 +4,7 @@
 
 using namespace clench;
 
-// links by their parents; '+' a link that a joint moves, '-' a fixed one
+// links by their parents; '+' for a link moved by a joint, '-' for a fixed one
 static RobotSpec tree_of(const std::vector<int>& parents, const std::string& joints) {
   RobotSpec robot;
   for (size_t l = 0; l < parents.size(); ++l) {
@@ -24,26 +24,27 @@ static std::vector<std::vector<int>> rows_of(const RobotSpec& robot) {
 
 using Rows = std::vector<std::vector<int>>;
 
-TEST_CASE("every link on the base begins a chain, and a chain goes on where one way leads on") {
+TEST_CASE("every link on the base begins a chain, which continues through single children") {
   CHECK(rows_of(tree_of({-1, 0, 1, -1, 3}, "+++++")) == Rows{{0, 1, 2}, {3, 4}});
   CHECK(rows_of(tree_of({-1, -1}, "--")) == Rows{{0}, {1}});
   CHECK(rows_of({}).empty());
 }
 
-TEST_CASE("where a tree branches each branch begins a chain") {
+TEST_CASE("each branch of a tree begins a chain") {
   const RobotSpec wrist = tree_of({-1, 0, 1, 0, 3}, "+++++");
   CHECK(rows_of(wrist) == Rows{{0}, {1, 2}, {3, 4}});
   CHECK(chains_of(wrist)[1].parent == 0);
   CHECK(chains_of(wrist)[0].parent == -1);
 }
 
-TEST_CASE("of a link's children the only one that leads on to joints goes on, or the first") {
-  // a nail is fixed on the finger before the next phalanx is
+TEST_CASE(
+    "among a link's children, the only one with further joints continues the chain, or the first") {
+  // a nail is fixed on the finger before the next phalanx
   CHECK(rows_of(tree_of({-1, 0, 0, 2}, "+-++")) == Rows{{0, 2, 3}, {1}});
   CHECK(rows_of(tree_of({-1, 0, 0}, "+--")) == Rows{{0, 1}, {2}});
 }
 
-TEST_CASE("places in chains are found both ways") {
+TEST_CASE("places in chains are converted to links and back") {
   const auto chains = chains_of(tree_of({-1, 0, 0, 2}, "+-++"));
   for (int link = -1; link < 4; ++link) CHECK(link_at(chains, place_of(chains, link)) == link);
   CHECK(place_of(chains, 3) == ChainPlace{0, 2});
@@ -53,7 +54,7 @@ TEST_CASE("places in chains are found both ways") {
   CHECK_FALSE(link_at(chains, {0, -1}));
 }
 
-TEST_CASE("links of a chain are put side by side, and stay on their parents") {
+TEST_CASE("links of a chain become consecutive, and keep their parents") {
   RobotSpec robot = tree_of({-1, -1, 0, 1, 2}, "+++++");
   const auto now = order_by_chains(robot);
   CHECK(now == std::vector<int>{0, 3, 1, 4, 2});
@@ -62,7 +63,7 @@ TEST_CASE("links of a chain are put side by side, and stay on their parents") {
   for (int l = 0; l < 5; ++l) CHECK(robot.links[l].body.name == names[l]);
 }
 
-TEST_CASE("joints are counted in their chains, and a chain is known by its last link") {
+TEST_CASE("joints are numbered within their chains, and the last link identifies a chain") {
   RobotSpec robot = tree_of({-1, 0, 0, 2}, "+-++");
   robot.links[2].joints.resize(2);
   const auto joints = joints_of(robot);

@@ -10,8 +10,8 @@ using namespace clench;
 
 namespace {
 
-/// Robots in a few lines: a palm, number 0, and fingers of box-shaped links. Each joint is a DOF of
-/// its own.
+/// Robots in a few lines: a palm, number 0, and fingers of box-shaped links. Each joint has its own
+/// DOF.
 struct Sketch {
   RobotSpec robot;
 
@@ -47,7 +47,7 @@ struct Sketch {
   std::vector<double> guess() const {
     return guess_closing(robot, std::vector<bool>(robot.dofs.size()));
   }
-  /// The links of another one behind those here, its palm moved by the same joints as the link was.
+  /// Appends the links of another sketch; its palm replaces the body of link `carrier`.
   void append(const Sketch& other, int carrier) {
     const int links = static_cast<int>(robot.links.size()),
               dofs = static_cast<int>(robot.dofs.size());
@@ -66,7 +66,7 @@ struct Sketch {
     joint(link, {1, 0, 0}, min, max);
     return link;
   }
-  /// approach frame of the hand that closes so
+  /// approach frame of a hand that closes with these velocities
   Pose approach_frame_of(const std::vector<double>& senses) const {
     RobotSpec closing = robot;
     for (size_t d = 0; d < senses.size(); ++d) closing.dofs[d].default_velocity = senses[d];
@@ -101,7 +101,8 @@ Sketch human_like() {
 
 }  // namespace
 
-TEST_CASE("fingers and thumb of a hand close towards each other, swings and palm stay") {
+TEST_CASE(
+    "fingers and thumb of a hand close towards each other, while spread joints and the palm stay") {
   const Sketch hand = human_like();
   const auto guess = hand.guess();
   for (size_t j = 0; j < hand.robot.dofs.size(); ++j) {
@@ -116,9 +117,9 @@ TEST_CASE("fingers and thumb of a hand close towards each other, swings and palm
   CHECK(hand.approach(guess).y() < -0.9);
 }
 
-TEST_CASE("the guess does not depend on where the hand stands, nor on the sense of its axes") {
+TEST_CASE("the guess does not depend on the pose of the hand, nor on the signs of its axes") {
   Sketch hand = human_like();
-  // an arm before the palm, and every other axis turned round
+  // an arm that carries the palm, and every other axis reversed
   Sketch other({0.1, 0.1, 0.1});
   const int wrist =
       other.add("wrist", 0, Pose::translation({1, 2, 3}), {0.05, 0.05, 0.05}, {0, 0, 0});
@@ -138,14 +139,14 @@ TEST_CASE("the guess does not depend on where the hand stands, nor on the sense 
 }
 
 TEST_CASE(
-    "a joint that rolls a straight thumb is judged with the thumb bent, alike in both hands") {
+    "a joint that rolls a straight thumb is evaluated with the thumb bent, equally in both hands") {
   const auto with_thumb = [](double side) {
     Sketch hand;
     for (const double x : {-0.03, 0.0, 0.03}) {
       const int first = hand.phalanx(0, Pose::translation({x, 0, 0.04}));
       hand.phalanx(hand.phalanx(first, up40), up40);
     }
-    // the thumb points to -y; its first joint rolls it about itself
+    // the thumb points to -y; its first joint rolls it about its own axis
     const Pose X_PT{
         Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX())),
         {side * 0.06, -0.015, -0.03}};
@@ -161,7 +162,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a finger is not swung into the way of those that close beside it, a thumb is swung to them") {
+    "fingers do not spread into the closing path of others, and a thumb is swung towards them") {
   for (const bool is_thumb : {false, true}) {
     CAPTURE(is_thumb);
     Sketch hand;
@@ -169,7 +170,8 @@ TEST_CASE(
       const int first = hand.phalanx(0, Pose::translation({x, 0, 0.04}));
       hand.phalanx(hand.phalanx(first, up40), up40);
     }
-    // a bone in the palm's side swings what it carries to the front of the others, to one side only
+    // a bone in the palm's side swings the finger that it carries in front of the others, in one
+    // direction only
     const int bone = hand.add("bone", 0, Pose::translation({0.03, 0, -0.02}), {0.014, 0.014, 0.05},
                               {0, 0, 0.025});
     const int swing = hand.joint(bone, Eigen::Vector3d(0, -1, 1).normalized(), 0, 0.8);
@@ -182,21 +184,21 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a gripper closes whether it is drawn open or shut") {
+TEST_CASE("a gripper closes whether it is initially open or closed") {
   for (const double open : {0.0, 0.04}) {
     Sketch gripper;
     for (const double side : {1.0, -1.0}) {
       const int finger = gripper.add(side > 0 ? "left" : "right", 0,
                                      Pose::translation({side * (0.005 + open), 0, 0.04}),
                                      {0.01, 0.02, 0.06}, {0, 0, 0.03});
-      // q from -open to 0.04 - open: the fingers stand open or shut at 0
+      // q from -open to 0.04 - open: the fingers are open or closed at 0
       gripper.joint(finger, {side, 0, 0}, -open, 0.04 - open, JointKind::prismatic);
     }
     const auto guess = gripper.guess();
     CHECK(guess == std::vector<double>{-1, -1});
     const Pose X_BA = gripper.approach_frame_of(guess);
     CHECK(X_BA.rotation.isApprox(Eigen::Quaterniond::Identity()));
-    // between the pads, which reach from 40 to 100 mm
+    // between the pads, which extend from 40 to 100 mm
     CHECK(std::abs(X_BA.position.x()) < 1e-3);
     CHECK(std::abs(X_BA.position.y()) < 5e-3);
     CHECK(X_BA.position.z() > 0.04);
@@ -204,7 +206,7 @@ TEST_CASE("a gripper closes whether it is drawn open or shut") {
   }
 }
 
-TEST_CASE("a hand of twice the size approaches from the same side, its place twice as far") {
+TEST_CASE("a hand of twice the size approaches from the same side, from twice the distance") {
   const auto scaled = [](const BodySpec& body) {
     BodySpec out = body;
     if (!body.shape) return out;
@@ -226,7 +228,7 @@ TEST_CASE("a hand of twice the size approaches from the same side, its place twi
   const Pose one = hand.approach_frame_of(senses), two = twice.approach_frame_of(senses);
   CHECK(two.rotation.coeffs() == one.rotation.coeffs());
   CHECK((two.position - 2 * one.position).norm() < 1e-12);
-  // before the palm, which faces -y, within the reach of fingers and thumb
+  // in front of the palm, which faces -y, within the reach of fingers and thumb
   CHECK(one.position.y() < -0.015);
   CHECK(one.position.y() > -0.1);
   CHECK(std::abs(one.position.x()) < 0.02);
@@ -244,7 +246,7 @@ TEST_CASE("one DOF that moves both jaws closes them") {
   left.min = -0.8, left.max = 0;
   right.dof = left.dof;
   right.ratio = -1;
-  // the left jaw stands at +x: a negative turn about y brings its tip to the middle
+  // the left jaw is at +x: a negative rotation about y moves its tip to the middle
   CHECK(gripper.guess() == std::vector<double>{-1, 0});
 }
 
@@ -280,7 +282,7 @@ TEST_CASE("fingers that turn about the palm's normal do not close it") {
   CHECK(hand.approach(guess).z() > 0.9);
 }
 
-TEST_CASE("an arm has no DOF that closes it, a single jaw has one") {
+TEST_CASE("an arm has no closing DOF, and a single jaw has one") {
   Sketch arm;
   int link = 0;
   for (int i = 0; i < 6; ++i) link = arm.phalanx(link, up40, -3, 3);
@@ -290,7 +292,7 @@ TEST_CASE("an arm has no DOF that closes it, a single jaw has one") {
 
   Sketch clip({0.02, 0.02, 0.1});
   clip.phalanx(0, Pose::translation({0, 0.03, 0}), -0.2, 1.2);
-  // the palm stands at -y of the jaw, which turns there about +x
+  // the palm is on the -y side of the jaw, which turns there about +x
   CHECK(clip.guess() == std::vector<double>{1});
 }
 
@@ -309,7 +311,7 @@ TEST_CASE("a camera on an arm does not make its wrist a finger") {
   for (size_t j = 0; j < hand.robot.dofs.size(); ++j) CHECK(carried[j + 2] == plain[j]);
 }
 
-TEST_CASE("passive joints, frames without geometry and robots without joints are no matter") {
+TEST_CASE("passive joints, frames without geometry and robots without joints are handled") {
   Sketch hand = human_like();
   std::vector<bool> passive(hand.robot.dofs.size());
   passive[1] = true;
@@ -322,8 +324,8 @@ TEST_CASE("passive joints, frames without geometry and robots without joints are
   CHECK(box.guess().empty());
 }
 
-TEST_CASE("a hand of hundreds of fingers closes all of them, in the time of one after the other") {
-  // looking at the whole hand for each of its DOFs took 20 s
+TEST_CASE("a hand of hundreds of fingers closes all of them, in linear time") {
+  // evaluating the complete hand for each of its DOFs took 20 s
   Sketch sketch;
   constexpr int fingers = 400;
   for (int i = 0; i < fingers; ++i) {

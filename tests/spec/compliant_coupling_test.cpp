@@ -42,8 +42,8 @@ std::vector<double> ratios(const RobotSpec& robot, int chain = 0) {
   return out;
 }
 
-// Link by link: what the tendon brings to link i, less its own spring, plus the next link's spring,
-// is nothing.
+// Balance of each link i: the tendon's torque, minus its own spring, plus the next link's spring,
+// is zero.
 Eigen::VectorXd turns_by_links(const std::vector<double>& pulls,
                                const std::vector<double>& springs) {
   const int n = static_cast<int>(pulls.size());
@@ -57,16 +57,16 @@ Eigen::VectorXd turns_by_links(const std::vector<double>& pulls,
 
 }  // namespace
 
-TEST_CASE("the original's compliant hand moves as its file's ratios say") {
-  // its notes: proximal joints 1600 N mm/rad, distal ones 1000, tendon 1 to 0.6, free motion 1 to
-  // 0.6; so it has (k1 / k2) t1 t2 / (t1 + t2) = 0.6
+TEST_CASE("the original's compliant hand moves with the ratios of its file") {
+  // comments of its file: proximal joints 1600 N mm/rad, distal ones 1000, tendon 1 to 0.6, free
+  // motion 1 to 0.6; so it has (k1 / k2) t1 t2 / (t1 + t2) = 0.6
   RobotSpec robot = hand_of({Finger{{1, 0.6}, {1.6, 1.0}}});
   couple_by_springs(robot);
   CHECK(ratios(robot)[0] == 1);
   CHECK(ratios(robot)[1] == doctest::Approx(0.6).epsilon(1e-14));
 }
 
-TEST_CASE("joints turn as the balance of each link asks") {
+TEST_CASE("joints move according to the balance of each link") {
   const std::vector<double> pulls = {1, 0.7, 0.4}, springs = {2, 0.5, 0.3};
   RobotSpec robot = hand_of({Finger{pulls, springs}, Finger{{0.5, 1}, {1, 4}}});
   couple_by_springs(robot);
@@ -84,7 +84,7 @@ TEST_CASE("a stiffer joint closes less") {
   CHECK(ratios(stiff)[1] == doctest::Approx(0.5 / 3));
 }
 
-TEST_CASE("axes that turn the other way, or at a right angle") {
+TEST_CASE("opposite and perpendicular axes are coupled") {
   RobotSpec turned = hand_of({{{1, -0.6}, {1.6, 1.0}, std::acos(-1.0)}});
   couple_by_springs(turned);
   CHECK(ratios(turned)[1] == doctest::Approx(-0.6));
@@ -93,7 +93,7 @@ TEST_CASE("axes that turn the other way, or at a right angle") {
   CHECK(ratios(across)[1] == doctest::Approx(2));
 }
 
-TEST_CASE("ratios stand where springs say nothing") {
+TEST_CASE("ratios are kept if springs do not determine them") {
   const std::vector<double> as_written = {1, 0.6};
   RobotSpec rigid = hand_of({Finger{as_written, {1, 1}}}, DofKind::rigid);
   RobotSpec slack = hand_of({Finger{as_written, {1, 0}}});

@@ -18,14 +18,14 @@ static void check_set_refused(const EigengraspSet& set, const char* sentence) {
   CHECK_THROWS_WITH_AS(check_eigengrasps(set, "s"), sentence, Error);
 }
 
-TEST_CASE("the identity has a unit vector a DOF and is in order") {
+TEST_CASE("the identity has a unit vector per DOF and is valid") {
   const auto set = identity_eigengrasps(4);
   CHECK(set.grasps.size() == 4);
   CHECK(set.grasps[2].vector == VectorXd(VectorXd::Unit(4, 2)));
   CHECK_NOTHROW(check_eigengrasps(set, "s"));
 }
 
-TEST_CASE("sets that are out of order are refused by a sentence") {
+TEST_CASE("invalid sets are rejected in one sentence") {
   check_set_refused({}, "s: expected at least one eigengrasp, got none");
   auto set = set_of({vec(1, 0, 0), vec(0, 0, 0)});
   check_set_refused(set, "s: eigengrasp 2: expected a vector other than zero, got one of length 0");
@@ -51,14 +51,14 @@ TEST_CASE("sets that are out of order are refused by a sentence") {
   check_set_refused(set, "s: norm: number 2: expected a scale other than 0, got 0");
 }
 
-TEST_CASE("an eigengrasp that is a sum of others is refused, where it stands") {
+TEST_CASE("an eigengrasp that is a linear combination of others is rejected, with its index") {
   auto set = set_of({vec(1, 2, 3), vec(0, 1, 1), vec(2, 5, 7)});
   check_set_refused(set, "s: eigengrasp 3: it is a sum of those before it");
   CHECK_THROWS_WITH_AS(check_eigengrasps(set, "s", {.grasps = {"a:1", "a:4", "a:7"}}),
                        "a:7: eigengrasp 3: it is a sum of those before it", Error);
   set.grasps[2].vector = vec(2, 5, 7.001);
   CHECK_NOTHROW(check_eigengrasps(set, "s"));
-  // more than there are DOFs cannot be independent
+  // more than the number of DOFs cannot be independent
   set.grasps.push_back({vec(5, 5, 5), 0.5, std::nullopt});
   check_set_refused(set, "s: eigengrasp 4: it is a sum of those before it");
 }

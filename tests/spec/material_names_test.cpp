@@ -4,7 +4,7 @@
 
 using namespace clench;
 
-TEST_CASE("the seven materials are known, others are refused with a near name or the list") {
+TEST_CASE("the seven materials are known, and others are rejected with a near name or the list") {
   for (const auto name : material_names) CHECK_NOTHROW(check_material(name));
   CHECK_THROWS_WITH_AS(check_material("rubbr"), "unknown material 'rubbr'; did you mean 'rubber'?",
                        Error);

@@ -20,7 +20,7 @@ static RobotSpec two_joints() {
 }
 
 TEST_CASE(
-    "the approach frame is right-handed, its z along the direction, its origin at the point") {
+    "the approach frame is right-handed, with z along the direction and its origin at the point") {
   Random random(1);
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3d direction(random.normal(), random.normal(), random.normal()),
@@ -31,7 +31,7 @@ TEST_CASE(
     CHECK((R.transpose() * R - Eigen::Matrix3d::Identity()).norm() < 1e-14);
     CHECK(R.determinant() == doctest::Approx(1));
     CHECK(X_BA.position == point);
-    // y lies across z and the x (or y) axis of the base
+    // y is perpendicular to z and the x (or y) axis of the base
     const Eigen::Vector3d x0 =
         std::abs(R(0, 2)) > 0.9 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
     CHECK(std::abs(R.col(1).dot(x0)) < 1e-14);
@@ -39,21 +39,21 @@ TEST_CASE(
   CHECK(approach_frame({0, 0, 0}, {0, 0, 5}).angle() < 1e-15);
 }
 
-TEST_CASE("an approach without direction is refused") {
+TEST_CASE("an approach without direction is rejected") {
   CHECK_THROWS_WITH_AS(approach_frame({0, 0, 0}, {0, 0, 0}),
                        "approach direction: expected a direction, got (0, 0, 0)", Error);
   CHECK_THROWS_AS(approach_frame({0, 0, 0}, {NAN, 0, 1}), Error);
   CHECK_THROWS_AS(approach_frame({INFINITY, 0, 0}, {0, 0, 1}), Error);
 }
 
-TEST_CASE("a DOF's range is what all of its joints allow") {
+TEST_CASE("a DOF's range is the intersection of the ranges of its joints") {
   const auto [low, high] = dof_range(two_joints(), 0);
   CHECK(low == -1);  // the first joint: [-1, 2]; the second: [-2, 1], swapped by its ratio
   CHECK(high == 1);
   CHECK(dof_range(two_joints(), 5) == std::array<double, 2>{0, 0});
 }
 
-TEST_CASE("what is out of order in a robot is told by place") {
+TEST_CASE("faults of a robot are reported with their place") {
   const auto refused = [](auto change, const char* sentence) {
     RobotSpec robot = two_joints();
     change(robot);

@@ -22,7 +22,7 @@ SkinPtr one_triangle(std::shared_ptr<const Image> image) {
 
 }  // namespace
 
-TEST_CASE("a reduced image keeps its mean color, and small images stay") {
+TEST_CASE("a reduced image keeps its mean color, and small images are unchanged") {
   const auto image =
       image_of(64, 32, [](int x, int y, int c) { return (37 * x + 11 * y * c) % 256; });
   CHECK(image_within(image, 64) == image);
@@ -57,7 +57,7 @@ TEST_CASE("skins are compared by their contents") {
   CHECK_FALSE(same_skin(turned_over(a), a));
 }
 
-TEST_CASE("parts behind each other keep their images, and share equal textures") {
+TEST_CASE("concatenated parts keep their images, and share equal textures") {
   const auto red = image_of(1, 1, [](int, int, int) { return 9; }),
              blue = image_of(1, 1, [](int, int, int) { return 8; });
   Skin all;

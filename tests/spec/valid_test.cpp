@@ -15,7 +15,7 @@ using namespace clench::test;
 static const double hostile_numbers[] = {NAN,    INFINITY, -INFINITY, 1e308, -1e308,
                                          5e-324, 0,        -1,        0.3,   1};
 
-/// The sentence of what is thrown; empty when nothing is.
+/// The message of the thrown error; empty if nothing is thrown.
 static std::string refusal_of(const std::function<void()>& call) {
   try {
     call();
@@ -37,7 +37,7 @@ static void check_verdicts(const Quantity& rule, const char* name,
   }
 }
 
-TEST_CASE("what is no number, and what is infinite, is allowed by no rule") {
+TEST_CASE("no rule allows NaN or infinite numbers") {
   for (const Quantity& rule :
        {mass_rule, density_rule, coordinate_rule, length_rule, scale_rule, angle_rule,
         elastic_modulus_rule, soft_layer_rule, poisson_ratio_rule, friction_rule,
@@ -53,7 +53,7 @@ TEST_CASE("what is no number, and what is infinite, is allowed by no rule") {
   }
 }
 
-TEST_CASE("a number that its rule refuses is told with its bounds, in the unit of who gave it") {
+TEST_CASE("a rejected number is reported with its bounds, in the unit of the caller") {
   CHECK(fault(mass_rule, 0) == "expected a number from 1e-12 to 1e+12 [kg], got 0");
   CHECK(fault(mass_rule.in("g", 1e-3), -1) == "expected a number from 1e-09 to 1e+15 [g], got -1");
   CHECK(fault(number_rule, -double(NAN)) == "expected a number from -1e+30 to 1e+30, got nan");
@@ -81,7 +81,7 @@ TEST_CASE("each number of a body has one rule") {
   check_verdicts(positive_rule, "inertia", body([](BodySpec& s, double x) {
                    s.inertia_per_mass = x * Eigen::Matrix3d::Identity();
                  }));
-  // a float cannot tell the smallest from 0, which is allowed
+  // a float cannot distinguish the smallest number from 0, which is allowed
   check_verdicts(share_rule, "color", [](double x) {
     Appearance looks;
     looks.color[1] = static_cast<float>(x);
@@ -126,7 +126,7 @@ TEST_CASE("each number of a robot has one rule") {
   check_verdicts(not_negative_rule, "coulomb", joint(&JointSpec::coulomb));
   check_verdicts(not_negative_rule, "spring", joint(&JointSpec::spring));
   check_verdicts(positive_rule, "ratio", robot([](RobotSpec& r, double x) {
-                   // negative ones run the other way
+                   // negative ones reverse the direction
                    joint_of(r, 0, 0).ratio = std::copysign(x, -1);
                    if (x < 0) joint_of(r, 0, 0).ratio = 0;
                  }));
@@ -218,7 +218,7 @@ TEST_CASE("each number of virtual contacts, eigengrasps and cameras has one rule
   });
 }
 
-TEST_CASE("a place is near enough for queries, and its quaternion is unit") {
+TEST_CASE("a position is close enough for queries, and its quaternion is normalized") {
   CHECK(is_place({}));
   CHECK(is_place(Pose::translation({1e9, -1e9, 0})));
   CHECK_THROWS_WITH_AS(check_place(Pose::translation({0, 0, 1e308}), "arm"),
@@ -246,11 +246,11 @@ TEST_CASE("a name has no control characters, is UTF-8 and not too long") {
   CHECK(name_fault(std::string(251, 'x')) == "expected at most 250 bytes, got 251");
 }
 
-TEST_CASE("a name from a file is repaired, and is a name then") {
+TEST_CASE("a name from a file is repaired to a valid name") {
   CHECK(repaired_name("a\nb\xFF"
                       "c\xC2\x9B"
                       "d") == "a?b?c?d");
-  // one '?' for a character that is obeyed, a surrogate, and each byte that begins nothing
+  // one '?' per control character, surrogate, and byte that begins no character
   CHECK(repaired_name("a\xE2\x80\xAE"
                       "b\xED\xA0\x80"
                       "c\xE2\x80") == "a?b?c?");
@@ -299,7 +299,7 @@ TEST_CASE("an inertia is symmetric and positive definite, and no moment exceeds 
       Error);
 }
 
-TEST_CASE("the moments beside one that is too large are raised to it") {
+TEST_CASE("if one moment is too large, the others are raised") {
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const Eigen::Matrix3d repaired =
@@ -309,7 +309,7 @@ TEST_CASE("the moments beside one that is too large are raised to it") {
         1e-14);
 }
 
-TEST_CASE("the inertia of a shape is always one") {
+TEST_CASE("the inertia of a shape is always valid") {
   BodySpec spec;
   spec.shape = Shape::make(box(1, 1, 1), "box");
   for (const double far : {0.0, 1.0, 1e3, 1e9}) {

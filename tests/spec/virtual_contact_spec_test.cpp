@@ -8,7 +8,7 @@ static void check_contact_refused(const VirtualContactSpec& contact, const char*
   CHECK_THROWS_WITH_AS(check_virtual_contact(contact, "s"), sentence, Error);
 }
 
-TEST_CASE("a virtual contact is in order as it is made, and refused by a sentence when it is not") {
+TEST_CASE("a default virtual contact is valid, and invalid ones are rejected in one sentence") {
   VirtualContactSpec contact;
   CHECK_NOTHROW(check_virtual_contact(contact, "s"));
   contact.X_LC.rotation = Eigen::Quaterniond(1, 1, 0, 0);

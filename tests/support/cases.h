@@ -1,11 +1,11 @@
-// How much of a long test the sanitizers take: they look for faults of memory and arithmetic, not
-// of geometry.
+// Number of random cases under the sanitizers, which check memory and arithmetic rather than
+// geometry.
 #pragma once
 
 namespace clench::test {
 
-/// `count` random cases; under the sanitizers, where each takes twenty times as long, an eighth of
-/// them.
+/// `count` random cases; under the sanitizers, which slow each down by a factor of twenty, an
+/// eighth of them.
 constexpr int cases(int count) {
 #ifdef __SANITIZE_ADDRESS__
   return (count + 7) / 8;

@@ -1,5 +1,5 @@
-// Meshes of curved surfaces, as fine as asked, with vertices on them, and a floor: for tests of
-// curvature.
+// Meshes of curved surfaces with any resolution, with vertices on the surface, and a floor: for
+// tests of curvature.
 #pragma once
 #include <functional>
 #include <map>
@@ -11,8 +11,8 @@ namespace clench::test {
 /// A board whose upper face lies in the plane z = 0 around the origin.
 inline Mesh floor_board() { return moved(box(0.2, 0.2, 0.02), Pose::translation({0, 0, -0.01})); }
 
-/// z = height(x, y) over a square of half width `half`, `cells` a side, seen from above; vertices
-/// moved within the plane by up to `jitter` of a cell.
+/// z = height(x, y) over a square of half width `half`, with `cells` cells per side, seen from
+/// above; vertices moved within the plane by up to `jitter` of a cell.
 inline Mesh graph(const std::function<double(double, double)>& height, double half, int cells,
                   double jitter = 0, uint64_t seed = 1) {
   Random random(seed);
@@ -67,7 +67,7 @@ inline Mesh icosphere(double radius, int subdivisions) {
   return mesh;
 }
 
-/// Along x, closed by lids: `segments` around, each two long triangles.
+/// Along x, closed by caps: `segments` around, of two long triangles each.
 inline Mesh rod(double radius, double length, int segments) {
   Mesh mesh;
   for (const double x : {-length / 2, length / 2}) {

@@ -1,1 +1,1 @@
-// test_header: it makes the precompiled header of the test programs, and has no tests of its own
+// test_header: compiles the precompiled header of the test programs, and has no tests of its own

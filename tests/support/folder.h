@@ -1,5 +1,5 @@
-// A folder for files that a test writes; gone afterwards. It lies alone in another, since readers
-// look for similar names there, too.
+// A temporary folder for files that a test writes, alone in a parent folder, because readers look
+// for similar names there, too.
 #pragma once
 #include <cstdlib>
 #include <filesystem>

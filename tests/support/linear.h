@@ -7,14 +7,14 @@
 
 namespace clench::test {
 
-/// An orthonormal matrix of d rows, at random.
+/// A random orthonormal matrix of d rows.
 Eigen::MatrixXd random_turn(int d, Random& random);
 
-/// The unit vector that all rows of m are normal to; empty unless there is exactly one, up to its
-/// sign.
+/// The unit vector perpendicular to all rows of m; empty unless it is unique up to its sign.
 std::optional<Eigen::VectorXd> common_normal(const Eigen::MatrixXd& m);
 
-/// All x of m x = right, as kernel * y + start. m has more columns than rows, which are independent.
+/// All x of m x = right, as kernel * y + start. m has more columns than rows, which are
+/// independent.
 struct Solutions {
   Eigen::MatrixXd kernel;
   Eigen::VectorXd start;

@@ -1,4 +1,4 @@
-// A sink that sorts sentences by what they are about.
+// A sink that passes messages to one function per kind.
 #pragma once
 #include <functional>
 #include <string>
@@ -12,8 +12,8 @@ struct Listening {
   using Listener = std::function<void(const std::string&)>;
   Listener warn = {};
   Listener note = {};
-  Listener repair = {};   ///< when empty, `warn` is told
-  Listener suspect = {};  ///< when empty, `warn` is told
+  Listener repair = {};   ///< if empty, `warn` is called
+  Listener suspect = {};  ///< if empty, `warn` is called
 
   operator Diagnostics() const {
     return Diagnostics([own = *this](const Diagnostic& d) {

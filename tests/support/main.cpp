@@ -1,5 +1,5 @@
 // The main function of all test programs. A test case that executes no assertion fails, unless it
-// says that it was skipped.
+// is marked as skipped.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 struct Tally {
   int skipped = 0, empty = 0;
-  bool skips = false;  // the case that runs
+  bool skips = false;  // the running test case
 };
 Tally tally;
 

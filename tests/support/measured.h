@@ -5,7 +5,7 @@
 
 namespace clench::test {
 
-/// reference/NAME.json of the third-party data.   throws std::runtime_error when it is absent
+/// reference/NAME.json of the third-party data.   throws std::runtime_error if it is absent
 nlohmann::json measured(const std::string& name);
 
 }  // namespace clench::test

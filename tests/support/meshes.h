@@ -1,4 +1,4 @@
-// Meshes and poses drawn at random, meshes joined and moved, and a reader for the scanned ones.
+// Random meshes and poses, meshes joined and moved, and a reader for scanned ones.
 #pragma once
 #include <filesystem>
 #include <fstream>
@@ -25,7 +25,7 @@ inline Eigen::Quaterniond random_turn(Random& random) {
   return Eigen::Quaterniond(w, x, y, z).normalized();
 }
 
-/// any turn, and a position at most `reach` away along each axis [m]
+/// random rotation, and a position of at most `reach` along each axis [m]
 inline Pose random_pose(Random& random, double reach) {
   const Eigen::Quaterniond turn = random_turn(random);
   const double x = random.uniform(-reach, reach), y = random.uniform(-reach, reach),
@@ -33,7 +33,7 @@ inline Pose random_pose(Random& random, double reach) {
   return {turn, {x, y, z}};
 }
 
-/// Triangles about random places within a unit box, not connected; every fifth one degenerate.
+/// Triangles at random positions within a unit box, not connected; every fifth one is degenerate.
 inline Mesh soup(Random& random, int count, double size = 0.2) {
   Mesh mesh;
   for (int i = 0; i < count; ++i) {
@@ -49,7 +49,7 @@ inline Mesh soup(Random& random, int count, double size = 0.2) {
   return mesh;
 }
 
-/// A closed surface without symmetry: a ball whose vertices are pulled in and out.
+/// A closed surface without symmetry: a ball with random displacements of its vertices.
 inline Mesh potato(Random& random, double radius = 1, int rings = 10) {
   Mesh mesh = ball(radius, rings, 2 * rings - 1);
   for (auto& p : mesh.vertices) p *= random.uniform(0.75, 1.25);
@@ -80,7 +80,7 @@ inline Mesh joined(Mesh a, const Mesh& b) {
   return a;
 }
 
-/// Vertices and triangular faces of an OBJ file, all else ignored.
+/// Vertices and triangular faces of an OBJ file; all other lines are ignored.
 inline Mesh read_obj(const std::filesystem::path& path) {
   std::ifstream file(path);
   Mesh mesh;
@@ -102,7 +102,7 @@ inline Mesh read_obj(const std::filesystem::path& path) {
   return mesh;
 }
 
-/// How often the mesh winds about p, by solid angles: slow and obvious.
+/// Winding number of the mesh about p, by solid angles: slow and simple.
 /// source  van Oosterom & Strackee (1983)
 inline double winding(const Mesh& mesh, const Eigen::Vector3d& p) {
   double sum = 0;

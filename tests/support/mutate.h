@@ -1,4 +1,4 @@
-// Texts changed at random, for tests that a reader survives any file.
+// Randomly changed texts, to test that a reader accepts or rejects any file without crashing.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace clench::test {
 
-/// What is odd in a format, and where its words end.
+/// Odd pieces of a format, and the characters that end its words.
 struct Oddities {
   std::vector<std::string> pieces;
   std::string_view ends = " \n[],";
 };
 
-/// One change: a byte, a word or a line exchanged, dropped or doubled, an odd piece put in.
+/// One change: a byte, a word or a line exchanged, dropped or doubled, or an odd piece inserted.
 inline void mutate_once(std::string& s, const Oddities& odd, Random& random) {
   const size_t at = random.bits() % s.size();
   const std::string& piece = odd.pieces[random.bits() % odd.pieces.size()];
-  // the word and the line at that place
+  // the word and the line at this position
   const size_t before = s.find_last_of(odd.ends, at), first = before == s.npos ? 0 : before + 1;
   const size_t end = std::max(first, std::min(s.find_first_of(odd.ends, at), s.size()));
   const size_t line = at == 0 ? 0 : s.find_last_of('\n', at - 1) + 1;
@@ -60,7 +60,7 @@ inline std::string mutated(std::string s, const Oddities& odd, Random& random) {
   return s;
 }
 
-/// Any bytes, fewer than 300.
+/// Random bytes, fewer than 300.
 inline std::string noise(Random& random) {
   std::string out(random.bits() % 300, '\0');
   for (char& c : out) c = static_cast<char>(random.bits());

@@ -1,12 +1,12 @@
-// Robots of rods, and worlds to move in, for tests of dynamics.
+// Robots of rods, and worlds for them, for tests of dynamics.
 #pragma once
 #include "clench/dynamics/stepper.h"
 #include "support/robots.h"
 
 namespace clench::test {
 
-/// A chain of rods of length 1 m and 1 kg that hang along -z, each turning about y of its upper end
-/// (or an axis given), one DOF each, without motors' gains or limits to speak of.
+/// A chain of rods of length 1 m and 1 kg that hang along -z, each turning about y (or a given
+/// axis) at its upper end, with one DOF each, without gains of motors and with very wide limits.
 inline RobotSpec pendulum(int rods, const std::vector<Eigen::Vector3d>& axes = {}) {
   RobotSpec robot;
   robot.name = "pendulum";
@@ -32,7 +32,7 @@ inline RobotSpec pendulum(int rods, const std::vector<Eigen::Vector3d>& axes = {
   return robot;
 }
 
-/// Nothing collides, no motor acts, and its weight pulls.
+/// Adds a robot without collisions and motor efforts, subject to gravity.
 inline Id<Robot> add_free_robot(World& world, const RobotSpec& spec, bool floating = false) {
   const auto id = world.add_robot(spec, {});
   world.set_collision(false);
@@ -53,8 +53,8 @@ inline void set_step(World& world, double step) {
 
 inline void run(World& world, double seconds) { Stepper(world).run(seconds); }
 
-/// A box or other mesh on a large plate whose upper side is z = 0 of a plane that is tilted about y
-/// by an angle.
+/// A box or other mesh on a large plate whose upper side is z = 0 of a plane tilted about y by an
+/// angle.
 struct Slope {
   World world;
   Id<Body> ground;

@@ -1,11 +1,11 @@
-// A part of a test in which permissions count, as they do not for root.
+// Parts of a test in which permissions apply, also if root runs it.
 #pragma once
 #include <doctest/doctest.h>
 #include <unistd.h>
 
 namespace clench::test {
 
-/// While it lives, root is a user whom no file belongs to. Anybody else stays who he is.
+/// While it exists, root acts as a user who owns no files. Other users are not affected.
 class PlainUser {
  public:
   PlainUser() {

@@ -20,8 +20,8 @@ inline Mesh moved(Mesh mesh, const Eigen::Vector3d& by) {
   return mesh;
 }
 
-/// A finger of two links, 50 mm each, along -x of their frames; it turns about z of the frame that
-/// it begins at, one joint a link.
+/// A finger of two links, 50 mm each, along -x of their frames; it turns about z of its initial
+/// frame, with one joint per link.
 inline void add_finger(RobotSpec& robot, const Pose& X_BC, int dof, double ratio_of_second,
                        const std::string& prefix) {
   const double pi = std::numbers::pi;
@@ -42,7 +42,7 @@ inline void add_finger(RobotSpec& robot, const Pose& X_BC, int dof, double ratio
   }
 }
 
-/// Two fingers that stand along +y, 60 mm apart, and close towards each other; one DOF a finger.
+/// Two fingers along +y, 60 mm apart, that close towards each other; one DOF per finger.
 inline RobotSpec two_finger(DofKind kind = DofKind::rigid, double ratio_of_second = 0.5) {
   const double pi = std::numbers::pi;
   RobotSpec robot;
@@ -52,7 +52,8 @@ inline RobotSpec two_finger(DofKind kind = DofKind::rigid, double ratio_of_secon
   dof.kind = kind;
   dof.default_velocity = 1;
   robot.dofs = {dof, dof};
-  // the right finger turns counter-clockwise from +y; the left one is the same turned over about y
+  // the right finger turns counter-clockwise from +y; the left one is the same, rotated by half a
+  // turn about y
   const Pose right{Eigen::Quaterniond(Eigen::AngleAxisd(pi / 2, Eigen::Vector3d::UnitZ())),
                    {0.03, 0, 0}};
   const Pose over = Pose::turn(pi, Eigen::Vector3d::UnitY());

@@ -8,7 +8,7 @@
 namespace clench::test {
 
 /// The folder with data/ and reference/: CLENCH_SHARED, or ../shared from the project's root. Empty
-/// when absent.
+/// if absent.
 inline std::filesystem::path shared() {
   const char* given = std::getenv("CLENCH_SHARED");
   const std::filesystem::path folder = given ? given : "../shared";
@@ -17,7 +17,7 @@ inline std::filesystem::path shared() {
 
 }  // namespace clench::test
 
-/// Ends the test case, as skipped, where the third-party data is absent.
+/// Ends the test case as skipped if the third-party data are absent.
 #define REQUIRE_SHARED()                                                     \
   if (clench::test::shared().empty()) {                                      \
     clench::test::skip("no third-party data at ../shared or CLENCH_SHARED"); \

@@ -1,5 +1,4 @@
-// Test cases that check nothing, for tests/scripts/watched_test.sh: what the main function makes of
-// them.
+// Test cases of all outcomes, by which tests/scripts/watched_test.sh tests the main function.
 #include <doctest/doctest.h>
 
 #include "support/skip.h"

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double margin = 1e-4;  // about convex shapes [m]
+constexpr double margin = 1e-4;  // around convex shapes [m]
 
 btVector3 to_bullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 btQuaternion turn_to_bullet(const Eigen::Matrix3d& R) {
@@ -35,7 +35,7 @@ Isometry3d from_bullet(const btTransform& X) {
   return out;
 }
 
-// Bullet's bodies are centered in their center of mass, along their principal axes.
+// Frames of Bullet's bodies are at the center of mass, along the principal axes.
 struct Principal {
   Isometry3d X_LP = Isometry3d::Identity();  // in the body's frame
   Vector3d moments = Vector3d::Zero();
@@ -120,7 +120,7 @@ class BulletGrip : public Grip {
     object_->setWorldTransform(saved_.X), object_->setInterpolationWorldTransform(saved_.X);
     object_->setLinearVelocity(saved_.v), object_->setAngularVelocity(saved_.w);
     update_hand();
-    // contacts are found again
+    // lets Bullet find the contacts again
     for (double t = 0; t < 0.02; t += options_.step) step(1, Vector3d::Zero());
   }
 
@@ -156,7 +156,7 @@ class BulletGrip : public Grip {
     btRigidBody::btRigidBodyConstructionInfo info(scene_.object.mass, nullptr, shape,
                                                   to_bullet(p.moments));
     info.m_startWorldTransform = to_bullet(p.X_LP);
-    // of two bodies the product counts
+    // Bullet multiplies the coefficients of the two bodies
     info.m_friction = std::sqrt(scene_.mu);
     object_ = std::make_unique<btRigidBody>(info);
     object_->setActivationState(DISABLE_DEACTIVATION);
@@ -189,15 +189,16 @@ class BulletGrip : public Grip {
       X_HP[i + 1] = link.pose * p.X_LP;
       const Isometry3d &X_H = X_HP[i + 1], &parent = X_HP[link.parent];
       const Eigen::Matrix3d turn =
-          X_H.linear().transpose() * parent.linear();  // from the parent's axes to its own
+          // rotation from the parent's axes to those of the link
+          X_H.linear().transpose() * parent.linear();
       const Vector3d pivot = parent.inverse() * link.point,
                      to_com = X_H.linear().transpose() * (X_H.translation() - link.point);
       const Vector3d axis = X_H.linear().transpose() * link.axis;
       Vector3d moments = p.moments;
       const double mass = std::max(link.body.mass, 1e-4);
       if (link.has_joint) {
-        // what an implicit servo adds to the inertia about its axis; without it explicit ones swing
-        // up
+        // the inertia that an implicit servo adds about its axis; without it, explicit servos
+        // oscillate
         const GripDof& dof = scene_.dofs[link.dof];
         moments.array() += options_.step * options_.kd + options_.step * options_.step * kp_ +
                            options_.step * dof.damping + dof.armature;

@@ -1,4 +1,4 @@
-// A grip in Bullet: its own collisions of convex pieces, its own reduced coordinates, its own
+// A grip in Bullet, with its collision detection of convex pieces, its reduced coordinates and its
 // solver.
 #pragma once
 #include <memory>
@@ -9,7 +9,7 @@ namespace clench::bench {
 
 struct BulletOptions {
   double step = 0.0005;  // [s]
-  double kd = 0.1;       // of the servos [N m s/rad]; 100 times that for joints that slide [N s/m]
+  double kd = 0.1;       // of the servos [N m s/rad]; 100 times that for prismatic joints [N s/m]
   int iterations = 20;
 };
 

@@ -32,8 +32,8 @@ Hull hull_of(const std::vector<Triangle>& triangles) {
   return convex_hull(points);
 }
 
-// of many corners those farthest along directions spread evenly over the sphere: within a
-// thousandth of the size, and few enough for engines that go through all of them for each contact
+// of many corners, keeps those farthest along directions spread evenly over the sphere: accurate to
+// a thousandth of the size, and few enough for engines that visit all corners for each contact
 Points thinned(const Points& points) {
   constexpr int count = 300;
   if (int(points.size()) <= count / 2) return points;
@@ -65,7 +65,7 @@ Points corners(const std::vector<Triangle>& triangles) {
   return thinned(out);
 }
 
-// the part of a triangle where side * (x[axis] - at) >= 0
+// the part of a triangle with side * (x[axis] - at) >= 0
 void clip(const Triangle& triangle, int axis, double at, double side, std::vector<Triangle>& out) {
   Points polygon;
   for (int k = 0; k < 3; ++k) {
@@ -105,7 +105,7 @@ Cut best_cut(const Piece& piece) {
 }  // namespace
 
 std::vector<Points> hulls_of_parts(const Surface& surface) {
-  // corners at one place are one, whatever their numbers
+  // corners with equal coordinates are merged
   std::map<std::array<double, 3>, int> numbers;
   std::vector<int> place(surface.vertices.size()), group;
   for (size_t v = 0; v < place.size(); ++v) {

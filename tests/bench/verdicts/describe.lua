@@ -1,4 +1,4 @@
---- A hand and an object as plain numbers, for engines that know nothing of ours: links as a tree of joints with meshes, masses and inertias.
+--- A hand and an object as plain numbers, for other engines: links as a tree of joints with meshes, masses and inertias.
 local describe = {}
 
 local function list(v) return {v.x, v.y, v.z} end
@@ -18,7 +18,7 @@ local function body_of(body)
   return {name = body.name, mass = body.mass, com = list(body.com), inertia = body.inertia, mesh = surface(body)}
 end
 
--- the joint of a link: what its velocity has beside its parent's, found from both Jacobians at the link's origin
+-- the joint of a link: its velocity relative to its parent, from both Jacobians at the link's origin
 local function joint_of(hand, link, parent)
   local J, K = hand:jacobian(link, {0, 0, 0}), nil
   if parent ~= hand.base then K = hand:jacobian(parent, parent.pose:inverse() * link.pose.position) end
@@ -31,7 +31,7 @@ local function joint_of(hand, link, parent)
     if turns or linear:norm() > 1e-9 then
       assert(not found, link.name .. ": several joints in a row")
       local axis = turns and angular or linear
-      -- the nearest point of the axis
+      -- the point of the axis nearest to the link's origin
       local point = link.pose.position + (turns and angular:cross(linear) / angular:dot(angular) or clench.vec3(0, 0, 0))
       found = {kind = turns and "revolute" or "prismatic", dof = dof - 1, ratio = axis:norm(), axis = list(axis / axis:norm()), point = list(point)}
     end
@@ -39,7 +39,7 @@ local function joint_of(hand, link, parent)
   return found
 end
 
---- Links where they are as the hand stands, in the frame of its base, which must be the world's; axes as well.
+--- Poses and joint axes of links in the current posture, in the frame of the base, which must be the world's.
 function describe.hand(hand)
   assert(hand.pose:angle() == 0 and hand.pose.position:norm() == 0)
   local number, links, by_name = {[hand.base.name] = 0}, {}, {}

@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 constexpr double time_step = 0.001;     // [s]
 constexpr double gravity = 9.81;        // [m/s^2]
 constexpr double lift_stiffness = 1e6;  // of the slide that raises the hand [N/m]
-// Impedance of couplings: joints of one motor are rigidly coupled. With MuJoCo's own, 0.9 to 0.95,
-// the links of light fingers yield by milliradians, and pads touch at one of their ends only.
+// Impedance of couplings: joints of one motor are rigidly coupled. With MuJoCo's default, 0.9 to
+// 0.95, the links of light fingers yield by milliradians, and pads touch at one of their ends only.
 constexpr const char* rigid = "0.999 0.9999 0.001";
 
 // MJCF of a grip; `lift` adds gravity, the table and a slide under the hand.
@@ -72,8 +72,8 @@ class GripFile {
         << ' ' << I(0, 1) << ' ' << I(0, 2) << ' ' << I(1, 2) << "\"/>";
     return out.str();
   }
-  // Torsional friction of patches becomes that of MuJoCo's contact points; of the two bodies that
-  // touch, MuJoCo takes the larger coefficients and dimension.
+  // Torsional friction of patches is represented at MuJoCo's contact points; for two touching
+  // bodies, MuJoCo uses the larger coefficients and dimension.
   std::string surface(double torsion_radius) const {
     std::ostringstream out;
     out << "condim=\"" << (torsion_radius > 0 ? 4 : 3) << "\" friction=\"" << scene_.mu << ' '
@@ -129,7 +129,7 @@ class GripFile {
     out << "<geom type=\"plane\" size=\"1 1 0.1\" contype=\"1\" conaffinity=\"2\" " << placed(X)
         << ' ' << surface(0) << "/>";
   }
-  // a servo at the first joint of each DOF, and its other joints coupled to that one
+  // a servo at the first joint of each DOF, to which its other joints are coupled
   void write_drives(double kp, std::ostringstream& actuators, std::ostringstream& couplings) const {
     std::vector<int> leader(scene_.dofs.size(), -1);
     for (size_t i = 0; i < scene_.links.size(); ++i) {
@@ -264,7 +264,7 @@ LiftVerdict lift_in_mujoco(const GripScene& scene, const StoredGrasp& grasp,
   run(options.grip_seconds, [](double part) { return part; });
   run(0.5, [](double) { return 1.0; });
   const Isometry3d gripped = grip.in_hand();
-  // height as a cubic of time: the velocity is 0 at both ends
+  // height as a cubic function of time: the velocity is 0 at both ends
   run(lift_seconds, [&](double s) {
     grip.raise_to(height * s * s * (3 - 2 * s), height * 6 * s * (1 - s) / lift_seconds);
     return 1.0;

@@ -16,8 +16,8 @@ struct LiftVerdict {
 };
 
 /// Under gravity the object rests on the scene's table while the hand presses; then the hand rises
-/// by 0.1 m in 1.5 s, and stays for a second.
-/// throws  std::runtime_error when the scene has no table
+/// by 0.1 m in 1.5 s, and holds still for a second.
+/// throws  std::runtime_error if the scene has no table
 LiftVerdict lift_in_mujoco(const GripScene& scene, const StoredGrasp& grasp,
                            const GripOptions& options);
 

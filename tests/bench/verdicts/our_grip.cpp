@@ -37,7 +37,7 @@ BodySpec body_of(const GripBody& body) {
   return out;
 }
 
-// DOFs count from where the scene has them
+// DOF values are relative to those of the scene
 RobotSpec robot_of(const GripScene& scene) {
   RobotSpec out;
   out.name = scene.hand_name;
@@ -78,7 +78,7 @@ class Ours : public Grip {
     object_ = world_.add_body(body_of(scene.object), BodyKind::object, {});
     world_.set_gravity(Eigen::Vector3d::Zero());
     world_.set_friction("wood", "wood", {scene.mu, scene.mu});
-    // the hand meets the object alone, as in the other engines
+    // the hand collides with the object only, as in the other engines
     std::vector<Id<Body>> parts = {world_.robot(robot).base};
     for (const auto& link : world_.robot(robot).links) parts.push_back(link.body);
     for (size_t a = 0; a < parts.size(); ++a)
@@ -89,7 +89,7 @@ class Ours : public Grip {
       q[Eigen::Index(i)] = grasp.dofs[i] - scene.dofs[i].value;
     const Eigen::MatrixXd M = joint_dynamics(world_, robot).mass_matrix;
     world_.set_dofs(robot, q);
-    // the other engines have a servo at each joint
+    // the other engines have one servo per joint
     std::vector<double> kp(scene.dofs.size(), 0);
     joints_.assign(scene.dofs.size(), 0);
     for (const GripLink& link : scene.links)

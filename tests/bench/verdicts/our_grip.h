@@ -1,4 +1,4 @@
-// A grip in our own engine, on the same convex pieces that the others have.
+// A grip in Clench's engine, with the same convex pieces as in the other engines.
 #pragma once
 #include <memory>
 
@@ -6,7 +6,7 @@
 
 namespace clench::bench {
 
-/// Steps of 1 ms, contacts within 0.1 mm, all of the friction; servos are critically damped for the
+/// Steps of 1 ms, contacts within 0.1 mm, full friction; servos are critically damped for the
 /// inertia of their joint.
 std::unique_ptr<Grip> our_grip(const GripScene& scene, const StoredGrasp& grasp,
                                const GripOptions& options);

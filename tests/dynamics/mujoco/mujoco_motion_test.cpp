@@ -44,7 +44,7 @@ struct Both {
     world.set_dynamic_settings(settings);
     for (DofControl& control : world.edit_dynamics().controls) control.mode = ControlMode::effort;
   }
-  // the same effort of a joint's motor in both, joints and motors in one order
+  // the same effort of a joint's motor in both engines, with joints and motors in the same order
   void push(int joint, double effort) {
     world.edit_dynamics().controls[joint].effort = effort;
     data->ctrl[joint] = effort;
@@ -89,7 +89,7 @@ std::string vec(Random& random, double size) {
                      random.uniform(-size, size), random.uniform(-size, size));
 }
 
-// A chain of capsules on joints with springs, dampers and rotors, one motor a joint.
+// A chain of capsules on joints with springs, dampers and rotors, one motor per joint.
 std::string random_chain(Random& random, int links) {
   std::string open, close, motors;
   for (int i = 0; i < links; ++i) {
@@ -110,7 +110,7 @@ std::string random_chain(Random& random, int links) {
 
 }  // namespace
 
-TEST_CASE("chains at random, passive and driven, swing as in MuJoCo") {
+TEST_CASE("random chains, passive and driven, swing as in MuJoCo") {
   Random random(21);
   for (int round = 0; round < cases(24); ++round) {
     const int links = 1 + round % 4;
@@ -118,7 +118,7 @@ TEST_CASE("chains at random, passive and driven, swing as in MuJoCo") {
     Eigen::VectorXd efforts = Eigen::VectorXd::Zero(links);
     if (round % 2 == 1)
       for (double& effort : efforts) effort = random.uniform(-1, 1);
-    // ours is of the first order in the step: what two steps extrapolate to is of the second
+    // Clench is of first order in the step; the extrapolation of two steps is of second order
     std::array<Eigen::VectorXd, 2> ours;
     Eigen::VectorXd theirs;
     for (const int half : {0, 1}) {
@@ -137,10 +137,10 @@ TEST_CASE("chains at random, passive and driven, swing as in MuJoCo") {
   }
 }
 
-TEST_CASE("boxes and balls that slide, roll, stop and tip end where they do in MuJoCo") {
+TEST_CASE("boxes and balls slide, roll, stop and tip to the same final poses as in MuJoCo") {
   Random random(22);
   for (int round = 0; round < cases(12); ++round) {
-    // the angle at which a box begins to slide is kept away from: there both creep
+    // avoids the angle at which a box begins to slide, where both engines creep
     const double mu = random.uniform(0.2, 0.6), angle = std::atan(mu) * (round % 2 ? 0.6 : 1.6);
     const bool ball = round % 3 == 0;
     const std::string shape =
@@ -163,13 +163,14 @@ TEST_CASE("boxes and balls that slide, roll, stop and tip end where they do in M
   }
 }
 
-TEST_CASE("jaws hold what they hold in MuJoCo, and drop what they drop there") {
+TEST_CASE("jaws hold and drop the same objects as in MuJoCo") {
   Random random(23);
   int held = 0, rounds = cases(12);
   for (int round = 0; round < rounds; ++round) {
     const double mu = random.uniform(0.3, 0.8), half = random.uniform(0.01, 0.02),
                  mass = random.uniform(0.1, 0.5);
-    // 2 mu F against m g, 1.5 times as much or as little: at the boundary engines may differ
+    // 2 mu F compared with m g, 1.5 times as large or as small: near equality the engines may
+    // differ
     const double force = mass * 9.81 / (2 * mu) * (round % 2 ? 1.5 : 1 / 1.5);
     const auto jaw = [&](const char* name, int side) {
       return fmt::format(
