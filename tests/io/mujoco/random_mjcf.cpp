@@ -162,7 +162,7 @@ class Generator {
     if (chance(p)) element.set("class", one_of(names));
   }
 
-  /// first  geom of a group contained in all ranges of groups
+  /// first  the group of the geom is in all ranges of groups
   Element geom(bool of_world = false, bool first = false) {
     constexpr std::string_view types[] = {"sphere",    "capsule", "cylinder",
                                           "ellipsoid", "box",     "mesh"};
