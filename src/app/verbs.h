@@ -10,7 +10,7 @@ struct RunOptions {
   std::string file;                    ///< file to run next, "-" for stdin; empty: none
   std::vector<std::string> arguments;  ///< arguments of the file
   bool console = false;                ///< open a console at the end?
-  bool view = false;                   ///< open a window beside the console?
+  bool view = false;                   ///< open a window next to the console
   std::string confine;  ///< files outside this folder are not read; empty: no restriction
   bool quiet = false;
 };

@@ -11,9 +11,9 @@ namespace clench {
 
 enum class Severity { note, warning, error };
 
-/// What happened to the thing in question.
+/// Category of a problem or decision.
 enum class About {
-  none,       ///< something else: a file that is written lacks it, say
+  none,       ///< none of the others, for example a loss in a written file
   inferred,   ///< a file leaves it open, and it is guessed
   ignored,    ///< a file contains it, and it is not used
   repaired,   ///< a file has it wrong, and it is put right
@@ -35,7 +35,7 @@ struct Diagnostic {
   /// The text is a sentence that begins with the name of the file.
   bool names_file = false;
 
-  /// The text, and how many equal problems there are: "... (3 more alike)".
+  /// The text, with the number of further equal problems: "... (3 more alike)".
   std::string message() const {
     return count > 1 ? text + fmt::format(" ({} more alike)", count - 1) : text;
   }
@@ -43,14 +43,14 @@ struct Diagnostic {
   std::string sentence() const { return names_file ? message() : place.before(message()); }
 };
 
-/// Where diagnostics go. May be empty: then nothing is formatted.
+/// Receiver of diagnostics. May be empty: then nothing is formatted.
 class Diagnostics {
  public:
   using Receiver = std::function<void(const Diagnostic&)>;
 
   Diagnostics() = default;
   explicit Diagnostics(Receiver receiver) : receiver_(std::move(receiver)) {}
-  /// Is anyone listening?
+  /// True if there is a receiver.
   explicit operator bool() const { return static_cast<bool>(receiver_); }
 
   void report(About about, Diagnostic diagnostic) const {
@@ -66,31 +66,31 @@ class Diagnostics {
       report(about, Diagnostic(place, fmt::format(format, std::forward<Args>(args)...)));
   }
 
-  /// Of what is not used.
+  /// Reports contents that are not used.
   void warn(Diagnostic diagnostic) const { report(About::ignored, std::move(diagnostic)); }
   template <class... Args>
   void warn(const Place& place, fmt::format_string<Args...> format, Args&&... args) const {
     report(About::ignored, place, format, std::forward<Args>(args)...);
   }
-  /// Of what is guessed.
+  /// Reports an assumption.
   void note(Diagnostic diagnostic) const { report(About::inferred, std::move(diagnostic)); }
   template <class... Args>
   void note(const Place& place, fmt::format_string<Args...> format, Args&&... args) const {
     report(About::inferred, place, format, std::forward<Args>(args)...);
   }
-  /// Of what is put right.
+  /// Reports a repair.
   void repaired(Diagnostic diagnostic) const { report(About::repaired, std::move(diagnostic)); }
   template <class... Args>
   void repaired(const Place& place, fmt::format_string<Args...> format, Args&&... args) const {
     report(About::repaired, place, format, std::forward<Args>(args)...);
   }
-  /// Of what is used, and looks wrong.
+  /// Reports a suspicious value that is used nevertheless.
   void suspected(Diagnostic diagnostic) const { report(About::suspicious, std::move(diagnostic)); }
   template <class... Args>
   void suspected(const Place& place, fmt::format_string<Args...> format, Args&&... args) const {
     report(About::suspicious, place, format, std::forward<Args>(args)...);
   }
-  /// Of what a file that is written lacks: "hand.urdf does not hold `what`".
+  /// Reports something that a written file cannot hold: "hand.urdf does not hold `what`".
   void lost(const std::string& file, const std::string& what) const {
     Diagnostic diagnostic(Place(file), file + " does not hold " + what);
     diagnostic.names_file = true;

@@ -1,4 +1,4 @@
-// Where in a file a problem lies, and what it concerns.
+// Place of a problem in a file, with the part of the file that it concerns.
 #pragma once
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ struct Place {
   int line = 0;         ///< from 1; 0: none
   std::string subject;  ///< "joint 2", "robot 'DLR': DOF 3"
 
-  /// The same place, more precisely: `what` joins the subject.
+  /// The same place, narrowed: `what` is appended to the subject.
   Place of(std::string_view what) const {
     return Place(file, line,
                  subject.empty() ? std::string(what) : subject + ": " + std::string(what));

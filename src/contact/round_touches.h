@@ -1,4 +1,4 @@
-// Where round pieces touch: a cylinder along a line, on its cap or at one point of its rim.
+// Contacts of round pieces: of a cylinder along a line, on its cap or at one point of its rim.
 #pragma once
 #include <vector>
 

@@ -47,7 +47,7 @@ void weld(World& world, Id<Body> object, Id<Body> to) {
   auto own = v.segment(tree.first, tree.size());
   const Vector6d root = prescribed_twist(world, tree);
 
-  // an impulse equal to the piece's momentum in excess of what it has as a part of the carrier
+  // an impulse equal to the piece's momentum in excess of that as a part of the carrier
   Eigen::VectorXd impulse = Eigen::VectorXd::Zero(tree.size());
   for (size_t i = 0; i < piece.bodies.size(); ++i) {
     const Body& body = world.body(piece.bodies[i].body);

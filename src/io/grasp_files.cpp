@@ -35,7 +35,7 @@ GraspFormat grasp_format(const std::string& name) {
   fail("unknown format {}{}", in_quotes(name), instead_of(name, names));
 }
 
-// what the file itself says: JSON by its keys, else lines of numbers
+// format by the contents: JSON by its keys, otherwise lines of numbers
 static GraspFormat look_into(const fs::path& path) {
   const std::string start = read_start(path, 4096);
   const std::string_view text = trim(without_mark(start));
@@ -44,10 +44,10 @@ static GraspFormat look_into(const fs::path& path) {
     return GraspFormat::isaac_grasp;
   if (!text.empty() && (text[0] == '-' || text[0] == '#' || (text[0] >= '0' && text[0] <= '9')))
     return GraspFormat::graspit;
-  // a head of ours stands on one line
+  // the first line of JSON lines is always a single line
   if (text.substr(0, text.find('\n')).find("clench grasps") != std::string_view::npos)
     return GraspFormat::lines;
-  // the contents of a .json file decide between the two
+  // the contents of a .json file select one of the two formats
   return ending_of(path) == ".json" ? GraspFormat::graspgen : GraspFormat::lines;
 }
 
@@ -78,7 +78,7 @@ static GraspFormat format_of_tree(const ValueTree& tree, const std::string& file
       file);
 }
 
-/// Reads the contents of a file of the format.   returns  the format
+/// Reads the contents of a file in the given format.   returns  the format
 static GraspFormat read_grasp_contents(GraspFormat format, bool is_known, const std::string& file,
                                        std::string bytes, const GraspSink& sink,
                                        const ReadOptions& options) {
@@ -147,7 +147,7 @@ GraspFormat grasp_format_to_write(const fs::path& path, const std::string& forma
        in_quotes(file));
 }
 
-// the parts of a grasp that lines of nine numbers cannot hold
+// parts of a grasp that lines of nine numbers cannot hold
 static void report_planned_losses(std::vector<GraspSpec> grasps, const std::string& file,
                                   const WriteOptions& options) {
   for (GraspSpec& g : grasps) {

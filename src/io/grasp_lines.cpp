@@ -85,15 +85,15 @@ static Json json_of(const GraspSpec& g) {
   return out;
 }
 
-/// A line of JSON, whose control and bidirectional characters are escapes. Text that is not UTF-8
-/// is no reason to lose the rest.
+/// A line of JSON, in which control and bidirectional characters are escaped. Invalid UTF-8 is
+/// replaced, so that the other data is kept.
 static std::string line_of(const Json& value) {
   const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string out;
   for (size_t i = 0, size = 0; i < text.size(); i += size) {
     const size_t control = control_size(text, i);
     size = std::max<size_t>(control, 1);
-    // such characters stand in strings alone
+    // such characters occur only in strings
     if (control)
       out +=
           fmt::format("\\u{:04x}", static_cast<uint32_t>(letters_of(text.substr(i, size)).front()));
@@ -129,14 +129,15 @@ void write_grasps(const std::vector<GraspSpec>& grasps, const fs::path& path,
 
 namespace {
 
-using Parsed = nlohmann::json;  // keys sorted: long objects take no quadratic time
+using Parsed = nlohmann::json;  // sorted keys: long objects do not take quadratic time
 
-/// A line as a tree. Values are counted as they come, so that a line takes bounded memory.
+/// Parses a line into a tree. Values are counted during parsing, so that a line takes bounded
+/// memory.
 class LineParser : public nlohmann::json_sax<Parsed> {
  public:
   explicit LineParser(const Line& line) : line_(line) {}
 
-  /// returns  nothing when the text ends before the value does
+  /// returns  nothing if the text ends before the value is complete
   std::optional<Parsed> parse() {
     if (Parsed::sax_parse(line_.text(), this)) return std::move(root_);
     if (is_cut_) return {};
@@ -166,7 +167,7 @@ class LineParser : public nlohmann::json_sax<Parsed> {
   }
 
  private:
-  // the place of the next value: behind its key, at the end of a list, or the root
+  // position of the next value: after its key, at the end of a list, or the root
   Parsed& put(Parsed&& value) {
     if (++count_ > max_values)
       line_.fail("expected at most {} values in a line, got more", max_values);
@@ -191,7 +192,7 @@ class LineParser : public nlohmann::json_sax<Parsed> {
   }
 
   static constexpr size_t max_depth = 8;
-  static constexpr int syntax_error = 101;  // of nlohmann's parse errors
+  static constexpr int syntax_error = 101;  // code in parse errors of nlohmann
 
   const Line& line_;
   bool is_cut_ = false;
@@ -201,7 +202,7 @@ class LineParser : public nlohmann::json_sax<Parsed> {
   size_t count_ = 0;
 };
 
-/// An object of a line, key by key; a key that nobody asked for is an error.
+/// An object of a line, read key by key; keys that were not read are an error.
 class Fields {
  public:
   Fields(const Parsed& json, std::string place) : json_(json), place_(std::move(place)) {
@@ -260,7 +261,7 @@ class Fields {
     if (!value.is_boolean()) refuse(at(key), "true or false", value);
     return value.get<bool>();
   }
-  /// Numbers or strings by their names.
+  /// Numbers or strings by name.
   template <class T>
   std::map<std::string, T> named(const char* key) {
     constexpr bool texts = std::is_same_v<T, std::string>;
@@ -297,7 +298,7 @@ class Fields {
 PointContact read_point(Fields& fields) {
   PointContact out{
       .p_O = fields.vec3("point"), .n_O = fields.vec3("normal"), .mu = fields.number("mu", 0)};
-  // a normal that was written is one up to rounding
+  // a written normal has unit length up to rounding
   if (!(std::abs(out.n_O.norm() - 1) < 1e-6))
     Fields::refuse(fields.at("normal"), "a vector of length 1", fields.get("normal"));
   if (fields.find("torsion_radius")) out.torsion_radius = fields.number("torsion_radius", 0);
@@ -329,7 +330,7 @@ PregraspState read_pregrasp(const Parsed& json, const std::string& place) {
 }
 
 void read_joint_labels(Fields& fields, GraspSpec& out) {
-  // labels without positions of joints are ignored
+  // labels without joint positions are ignored
   if (!fields.find("joints")) {
     for (const char* key : {"joint_names", "joint_units", "joint_offsets"}) fields.find(key);
     return;
@@ -343,7 +344,7 @@ void read_joint_labels(Fields& fields, GraspSpec& out) {
     out.joint_offsets = fields.numbers("joint_offsets", static_cast<int>(out.joints.size()));
 }
 
-/// Of the friction pyramids; 0 and "exact" stand for round cones.
+/// Edges of the friction pyramids; 0 and "exact" select round cones.
 int read_edges(Fields& fields) {
   const Parsed& value = fields.get("edges");
   if (value == "exact") return round_edges;
@@ -371,7 +372,7 @@ GraspSpec read_line(const Parsed& json, const std::string& place) {
     if (fields.find(key)) *list = fields.texts(key, out.dofs.size());
   check_dof_names(fields.at("dof_names"), out.dof_names);
   check_dof_units(fields.at("dof_units"), out.dof_units);
-  // without them the DOFs say it all
+  // optional: the DOFs determine the joints
   if (fields.find("joints")) out.joints = fields.numbers("joints");
   read_joint_labels(fields, out);
   const Parsed& points = fields.get("points");
@@ -424,7 +425,7 @@ void check_head(const Parsed& json, const std::string& place) {
 void read_grasps(const std::string& file, std::string text, const GraspSink& sink,
                  const ReadOptions& options) {
   GraspCollector list(file, text.size(), sink);
-  // a line of a grasp has a dozen keys
+  // a line of a grasp has about a dozen keys
   constexpr size_t shortest = 200;
   list.expect(text.size() / shortest);
   const bool has_last_end = text.ends_with('\n');

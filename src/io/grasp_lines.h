@@ -1,5 +1,5 @@
-// Lists of grasps as JSON lines: what kind of file it is on the first, a grasp on each that
-// follows.
+// Lists of grasps as JSON lines: the first line names the kind of file, each following line holds
+// one grasp.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace clench {
 
-/// Numbers come back to the bit. A last line that lacks its end and is no JSON is skipped with a
-/// warning: it was cut short as it was written.
+/// Numbers are read back bit-exactly. A last line without a line end that is not valid JSON is
+/// skipped with a warning: writing it was interrupted.
 /// throws Error  "grasps.jsonl:3: points[2].mu: expected a number >= 0, got -1"
 std::vector<GraspSpec> read_grasps(const std::filesystem::path& path,
                                    const ReadOptions& options = {});
@@ -21,8 +21,8 @@ std::vector<GraspSpec> read_grasps(const std::filesystem::path& path,
 void read_grasps(const std::string& file, std::string text, const GraspSink& sink,
                  const ReadOptions& options);
 
-/// The same list gives the same bytes. Measures and notes that are not finite are left out.
-/// notes  of the list as such, a JSON object for its first line; empty: none
+/// Equal lists give equal bytes. Measures and notes that are not finite are left out.
+/// notes  notes on the list, a JSON object for its first line; empty: none
 /// throws Error as write_file does
 void write_grasps(const std::vector<GraspSpec>& grasps, const std::filesystem::path& path,
                   const std::string& notes = {});
@@ -30,7 +30,7 @@ void write_grasps(const std::vector<GraspSpec>& grasps, const std::filesystem::p
 /// The text of such a file.
 std::string grasps_text(const std::vector<GraspSpec>& grasps, const std::string& notes = {});
 
-/// What one grasp is in such a file, without the end of the line; and what its first line is.
+/// The line of one grasp in such a file, without its line end; and the first line of the file.
 std::string grasp_line(const GraspSpec& grasp);
 std::string grasps_head(const std::string& notes = {});
 

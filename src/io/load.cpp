@@ -60,7 +60,7 @@ void finish_robot(RobotSpec& robot, const fs::path& path, FileCache& cache) {
   tell_assumed(parts, file, options.diagnostics);
   if (!is_robot_tree(path)) choose_closing(robot, path.filename().string(), options);
   if (!robot.X_BA) {
-    // of a scene one of several
+    // a scene may have several robots
     const Place robot_place = is_scene(path) ? file.of(in_quotes(robot.name)) : file;
     options.diagnostics.note(
         robot_place,

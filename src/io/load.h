@@ -1,13 +1,14 @@
-// Bodies and robots from their files, by what these hold.
+// Loads bodies and robots from files of all formats.
 #pragma once
 #include "clench/io/text/file_cache.h"
 
 namespace clench {
 
-/// What a FileCache reads files with: all formats.
+/// The loaders of a FileCache: all formats.
 extern const Loaders all_formats;
 
-/// What every robot is given, and told of, that was read from a file, wherever it stands.
+/// Completes a robot read from a file of any format: adds defaults, stores its origin, and reports
+/// implausible, assumed and missing properties.
 void finish_robot(RobotSpec& robot, const std::filesystem::path& path, FileCache& cache);
 
 }  // namespace clench

@@ -47,7 +47,7 @@ RobotSpec read_robot(const std::filesystem::path& path, const ReadOptions& optio
   });
 }
 
-/// A world with one thing in it.
+/// A world that contains only this robot or body.
 static WorldSpec around(RobotSpec robot) {
   WorldSpec world;
   world.robots.push_back({std::move(robot), {}, {}, {}});
@@ -94,8 +94,7 @@ WorldSpec read_world(const std::filesystem::path& path, const ReadOptions& optio
     FileCache cache(options, all_formats);
     const auto found = find_file(path.string(), "", options);
     WorldSpec world = world_of(found, cache);
-    std::set<std::pair<std::string, const Shape*>>
-        told;  // of what stands there more than once, one
+    std::set<std::pair<std::string, const Shape*>> told;  // each repeated body is reported once
     std::vector<const BodySpec*> objects, obstacles;
     for (const PlacedBody& placed : world.bodies) {
       const std::string& file = placed.body.file.empty() ? placed.body.name : placed.body.file;

@@ -13,7 +13,7 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-// letters, digits and strokes: robots in text name their files as one word
+// letters, digits, '-' and '_': text formats of robots name their files as one word
 static std::string plain(const std::string& name) {
   std::string out = name.substr(0, 100);
   for (char& c : out)
@@ -21,7 +21,7 @@ static std::string plain(const std::string& name) {
   return out.empty() ? "part" : out;
 }
 
-// the same for two names only when they are one
+// equal for two names only if the names are equal
 static std::string own_stem(const std::string& name) {
   const std::string out = plain(name);
   if (out == name) return out;
@@ -95,7 +95,7 @@ std::string RobotFolder::mesh(const Mesh& mesh, const Appearance& looks, const s
   return folder + add(folder, part, ".obj", text + faces);
 }
 
-// --- what a robot's file names ---
+// --- files that a robot's file names ---
 
 std::string RobotFolder::named_file(const std::string& folder, const std::string& ending) const {
   return folder + "/" + own_ + ending;

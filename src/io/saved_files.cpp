@@ -35,7 +35,7 @@ SavedFiles::SavedFiles(const fs::path& path, const WriteOptions& options)
 
 // --- names ---
 
-/// `file` from the folder on; empty when it does not lie below it.
+/// `file` relative to the folder; empty if it does not lie below it.
 static std::string below(const fs::path& file, const fs::path& folder) {
   if (folder.empty()) return "";
   for (const bool links : {false, true}) {
@@ -73,7 +73,7 @@ std::string SavedFiles::name(const RobotSpec& robot) const {
   return name(robot.file) + (body.empty() ? "" : "#" + body);
 }
 
-// --- what files hold ---
+// --- contents of files ---
 
 void SavedFiles::check_within(const std::string& file) const {
   if (!lies_within(file, reading_.confine)) fail_outside(file, reading_);
@@ -137,9 +137,9 @@ void SavedFiles::warn_of_folders(const RobotSpec& robot) const {
       fmt::format("{} that robot '{}' was read with; .lua does", options, excerpt(robot.name)));
 }
 
-// --- what is written beside ---
+// --- files written next to the world ---
 
-/// A name that every file system takes, and that other formats can quote.
+/// A name that is valid in every file system and needs no escapes in other formats.
 static std::string file_stem(const std::string& name) {
   std::string stem = name.substr(0, 100);
   for (char& c : stem)
@@ -172,12 +172,12 @@ std::string body_elements(const BodySpec& body, const std::string& surface,
   const auto add = [&](const char* name, const std::string& value) {
     out += fmt::format("{}<{}>{}</{}>\n", indent, name, value, name);
   };
-  // materials of the user's own are no part of the format
+  // custom materials are not part of the format
   if (std::ranges::count(material_names, body.material)) add("material", body.material);
   if (body.elastic_modulus) add("youngs", fmt::format("{}", *body.elastic_modulus));
   if (body.tracker) add("useFlockOfBirds", fmt::format("{}", *body.tracker));
   add("mass", number_in(body.mass, units::gram));
-  // what a reader repairs has another center and inertia
+  // a mesh that readers repair has another center and inertia
   const bool repaired = body.shape && !body.shape->closed() &&
                         (body.shape->faults().duplicate_triangles > 0 ||
                          body.shape->faults().degenerate_triangles > 0);
@@ -193,7 +193,7 @@ std::string body_elements(const BodySpec& body, const std::string& surface,
   if (surface.empty()) return out;
   out +=
       fmt::format("{}<geometryFile type=\"off\">{}</geometryFile>\n", indent, xml_escaped(surface));
-  // the surface is in meters, of which millimeters would lose digits
+  // the surface is in meters; converting it to millimeters would lose digits
   add("geometryScaling", "1000");
   return out;
 }

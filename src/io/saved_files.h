@@ -1,5 +1,5 @@
-// The files that a saved world names: how they are called in it, what they hold, and those that are
-// written beside it.
+// Files that a saved world refers to: their names in it, their contents, and the new files written
+// next to it.
 #pragma once
 #include <map>
 #include <set>
@@ -12,40 +12,45 @@ namespace clench {
 
 class SavedFiles {
  public:
-  /// `path` is the world's
+  /// path  file of the world
   SavedFiles(const std::filesystem::path& path, const WriteOptions& options);
 
-  /// A file as the world names it. Reading it with the same root finds that very file.
+  /// The name of a file as written in the world. Reading it with the same root finds exactly this
+  /// file.
   std::string name(const std::string& file) const;
-  /// The same of a robot's file; of one of a scene's, "scene.xml#arm".
+  /// The same for a robot's file; for a robot of a scene, "scene.xml#arm".
   std::string name(const RobotSpec& robot) const;
-  /// The file from the root on, when it lies below that; else empty.
+  /// The file relative to the root if it lies below the root; otherwise empty.
   std::string below_root(const std::string& file) const;
-  const std::filesystem::path& root() const { return root_; }      ///< absolute, or empty
-  const std::filesystem::path& folder() const { return folder_; }  ///< of the world, absolute
+  const std::filesystem::path& root() const { return root_; }  ///< absolute, or empty
+  /// folder of the world, absolute
+  const std::filesystem::path& folder() const { return folder_; }
 
-  /// What the body's file gives when it is read again; null when it has none, or it is gone or
-  /// holds another surface, which is warned of.
+  /// The body as read again from its file; null if it has no file. Null with a warning if the file
+  /// is missing or holds another surface.
   const BodySpec* again(const BodySpec& body);
   /// throws Error  "robot 'DLR' cannot be saved: ..."
   const RobotSpec& again(const RobotSpec& robot);
 
-  /// Writes the body's surface as ball.off.   returns  its path; empty when it has none
+  /// Writes the body's surface as ball.off.   returns  its path; empty if it has no surface
   std::filesystem::path write_surface(const BodySpec& body);
-  /// Writes the body as ball.xml, and ball.off beside.   returns  the path of the first
+  /// Writes the body as ball.xml, and its surface as ball.off next to it.   returns  the path of
+  /// ball.xml
   std::filesystem::path write_body(const BodySpec& body);
-  /// Writes files of one name that differ by their endings into a folder of the world's own,
-  /// w_files/1a2b3c4d, which is called after what they hold: no other world's are touched.
+  /// Writes files of the same name with different endings into a folder used only by this world,
+  /// w_files/1a2b3c4d. The folder is named by a hash of the contents, so that files of other worlds
+  /// are never overwritten.
   /// returns  the path of the first
   struct Beside {
     std::string ending, text;
   };
   std::filesystem::path write_beside(const std::string& name, const std::vector<Beside>& files);
-  /// Else nothing of what was written beside stays: for a world that cannot be saved.
+  /// Keeps the files that were written. Without this call they are deleted again: for worlds that
+  /// cannot be saved.
   void keep() { beside_.keep(); }
 
   const Diagnostics& diagnostics() const { return diagnostics_; }
-  /// Warns of the folders that the robot was read with, if there are any: only .lua holds them.
+  /// Warns if the robot was read with folders given by the caller: only .lua stores them.
   void warn_of_folders(const RobotSpec& robot) const;
 
  private:
@@ -53,18 +58,18 @@ class SavedFiles {
   void check_within(const std::string& file) const;
 
   std::filesystem::path path_, folder_, root_;
-  ReadOptions reading_;  // of what is read again
+  ReadOptions reading_;  // options for reading files again
   FileCache cache_;
   Diagnostics diagnostics_;
-  std::map<std::string, RobotSpec> given_;  // robots whose reading was given folders, by name
+  std::map<std::string, RobotSpec> given_;  // by name: robots that were read with folders
   std::set<std::string> warned_;
   FileSet beside_;
 };
 
-/// The elements of an XML body, a line each, `indent` before them.
+/// The elements of an XML body, one per line, each indented by `indent`.
 std::string body_elements(const BodySpec& body, const std::string& surface,
                           const std::string& indent);
-/// An XML body whole; `surface` is how it names its .off, empty when it has none.
+/// A complete XML body; `surface` is the name of its .off file, empty if it has none.
 std::string body_xml_text(const BodySpec& body, const std::string& surface);
 
 }  // namespace clench

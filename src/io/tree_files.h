@@ -1,4 +1,4 @@
-// Files of today that describe a robot as a tree: URDF and MJCF, by ending or by what they hold.
+// URDF and MJCF files, which describe a robot as a tree of links; recognized by ending or contents.
 #pragma once
 #include <filesystem>
 
@@ -6,15 +6,15 @@
 
 namespace clench {
 
-/// Is it one of .urdf .mjcf .xacro, or an .xml file that holds one of them?
+/// True for .urdf .mjcf .xacro, and for .xml files that contain one of them.
 bool is_robot_tree(const std::filesystem::path& path);
 
-/// throws Error naming the line, or saying that xacro must be expanded first
-/// body  of a scene: the body that the robot begins with; empty: the file's robot
+/// throws Error with the line, or an Error that asks to expand xacro first
+/// body  scenes: name of the robot's root body; empty: the only robot of the file
 RobotSpec read_robot_tree(const std::filesystem::path& path, const std::string& body,
                           FileCache& cache);
 
-/// Is it MJCF?
+/// True for MJCF.
 bool is_scene(const std::filesystem::path& path);
 
 }  // namespace clench

@@ -23,18 +23,18 @@ class ClenchText {
   std::string attribute(const char* name, double value) const {
     return fmt::format(" {}=\"{}\"", name, value + 0.0);
   }
-  /// what is as it would be without is left out
+  /// defaults are left out
   std::string unless(double usual, const char* name, double value) const {
     return value == usual ? "" : attribute(name, value);
   }
-  /// an infinite end becomes `unlimited`
+  /// an infinite bound becomes `unlimited`
   static std::string range(const char* name, const std::array<double, 2>& bounds) {
     const auto end = [](double x) {
       return (std::isinf(x) ? std::copysign(unlimited, x) : x) + 0.0;
     };
     return fmt::format(" {}=\"{} {}\"", name, end(bounds[0]), end(bounds[1]));
   }
-  /// -1 of a leader that turns against its DOF, which turns along in the file
+  /// -1 for a leader that turns against its DOF: in the file its axis is reversed
   static double sense(const UrdfJoint& joint) {
     return joint.leads && joint.spec->ratio < 0 ? -1 : 1;
   }
@@ -62,14 +62,14 @@ std::string ClenchText::pose(const Pose& X) const {
                      q.y(), q.z());
 }
 
-/// A value of the DOF is `scale` times as much in the file: forces are so much less.
+/// Values of the DOF are multiplied by `scale` in the file, and forces divided by it.
 void ClenchText::add_dof(int number) {
   if (plan_.leader_of[number] < 0) return;
   const DofSpec& dof = robot_.dofs[number];
   const UrdfJoint& leader = plan_.joints[plan_.leader_of[number]];
   const double scale = leader.factor;
   constexpr const char* kinds[] = {"rigid", "breakaway", "compliant"};
-  // grasps find their DOFs by name; one whose values are other ones in the file is another DOF
+  // grasps identify DOFs by name; a DOF whose values differ in the file gets another name
   const std::string name = dof.name.empty() ? fmt::format("dof{}", number + 1) : dof.name;
   line("<dof" + attribute("joint", leader.name) +
        (name == leader.name || std::abs(scale - 1) > 1e-12 ? "" : attribute("name", name)) +
@@ -139,7 +139,7 @@ void ClenchText::add_collision() {
   for (const auto& [a, b] : rules.pairs_on)
     inside += "      <pair" + attribute("link1", link_name(a)) + attribute("link2", link_name(b)) +
               "/>\n";
-  // in the file a link that two joints move is no neighbor of the base
+  // in the file a link that is moved by two joints is not adjacent to the base
   for (size_t l = 0; l < robot_.links.size(); ++l)
     if (!robot_.chain_links_collide && robot_.links[l].parent < 0 &&
         robot_.links[l].joints.size() > 1)
@@ -171,7 +171,7 @@ void ClenchText::add_tendon(const JointTendonSpec& tendon) {
   line("</joint_tendon>");
 }
 
-/// The joint of the file for one of ours; null if the file lacks it.
+/// The joint of the file that represents a joint of the robot; null if the file lacks it.
 const UrdfJoint* ClenchText::joint(const std::string& name) const {
   for (const UrdfJoint& joint : plan_.joints)
     if (joint.spec && joint.spec->name == name) return &joint;
@@ -219,7 +219,7 @@ void ClenchText::add_actuator(const ActuatorSpec& actuator) {
 }
 
 std::string ClenchText::text(const UrdfBeside& beside) {
-  // worlds take none for that of the base
+  // written even if absent: worlds then use the frame of the base
   line("<approach" + pose(robot_.X_BA.value_or(Pose{})) + "/>");
   if (robot_.tracker)
     line(fmt::format("<tracker number=\"{}\"{}/>", robot_.tracker->number,

@@ -1,15 +1,16 @@
-// What a URDF cannot say, written as the element that urdf/urdf_clench reads.
+// Writes properties that URDF has no elements for as the element <clench>, which urdf/urdf_clench
+// reads.
 #pragma once
 #include "clench/io/urdf_plan.h"
 
 namespace clench {
 
-/// Names of files beside, from the robot's folder on; empty: there is none.
+/// Names of the additional files, relative to the robot's folder; empty if absent.
 struct UrdfBeside {
   std::string eigengrasps = {}, virtual_contacts = {}, glove = {};
 };
 
-/// <clench> ... </clench>, indented by two; empty when all of it is as a reader would have it anyway.
+/// <clench> ... </clench>, indented by two; empty if all its contents are a reader's defaults.
 std::string clench_element(const RobotSpec& robot, const UrdfPlan& plan, const UrdfBeside& beside);
 
 }  // namespace clench

@@ -13,7 +13,7 @@ namespace clench {
 
 namespace {
 
-// a frame no further from an axis than this stands on it [m]
+// largest distance of a frame from an axis on which it counts as lying [m]
 constexpr double on_axis = 1e-14;
 
 class Planner {
@@ -22,7 +22,7 @@ class Planner {
   UrdfPlan plan();
 
  private:
-  /// Readers put the robot's name before it again.
+  /// The name without the robot's name, which readers prepend again.
   std::string body_name(const BodySpec& body) const;
   std::string unique(const std::string& name, std::set<std::string>& taken, bool given);
   int add_link(const std::string& name, const BodySpec* body);
@@ -41,7 +41,7 @@ class Planner {
   std::set<std::string> link_names_, joint_names_;
 };
 
-/// A name that readers take as it stands: XML trims it, and xacro would look into it.
+/// A name that readers do not change: XML trims blanks, and xacro would expand ${...} and $(...).
 std::string cleaned(const std::string& name) {
   std::string out(trim(name));
   for (size_t i = 0; i < out.size(); ++i) {
@@ -71,7 +71,8 @@ int Planner::add_link(const std::string& name, const BodySpec* body) {
   return static_cast<int>(plan_.links.size()) - 1;
 }
 
-/// The joint whose value is nearest to the DOF's: its own, its opposite, or the first one.
+/// Selects the joint that represents each DOF: one with the same value, otherwise the opposite
+/// value, otherwise the first.
 void Planner::choose_leaders() {
   leaders_.assign(robot_.dofs.size(), nullptr);
   for (const double expected : {1.0, -1.0, 0.0})
@@ -84,7 +85,8 @@ void Planner::choose_leaders() {
 
 // --- joints ---
 
-/// Does a joint leave the one that leads it so little of its range that readers take it for a slip?
+/// True if a joint limits the leader's range so strongly that readers treat these limits as a
+/// mistake.
 bool stops(const JointSpec& joint, const JointSpec& leader) {
   const double a = joint.min / joint.ratio, b = joint.max / joint.ratio;
   const double c = leader.min / leader.ratio, d = leader.max / leader.ratio;
@@ -105,16 +107,16 @@ void Planner::set_limits(UrdfJoint& joint) const {
     low = std::min(range[0] * spec.ratio, range[1] * spec.ratio);
     high = std::max(range[0] * spec.ratio, range[1] * spec.ratio);
   }
-  const bool turned = joint.leads && spec.ratio < 0;  // its axis is
+  const bool turned = joint.leads && spec.ratio < 0;  // the axis is reversed then
   joint.min = turned ? -high : low;
   joint.max = turned ? -low : high;
-  // that of a slide is told by its limits
+  // for a slide the limits express it
   joint.endless = spec.endless && !stopped;
   if (joint.endless && spec.kind == JointKind::prismatic)
     joint.min = -unlimited, joint.max = unlimited;
 }
 
-/// With everything but its place in the tree.
+/// A joint with everything except its parent and child.
 UrdfJoint Planner::moving_joint(const JointSpec& spec) const {
   const double leader = leaders_[spec.dof]->ratio;
   UrdfJoint joint;
@@ -128,7 +130,7 @@ UrdfJoint Planner::moving_joint(const JointSpec& spec) const {
   return joint;
 }
 
-/// A link of ours, or without one a frame, moved by a joint.   returns  its number
+/// Adds a link of the robot, or a frame if null, moved by a joint.   returns  its number
 int Planner::hang_moved(int parent, const Pose& X_PJ, const JointSpec& spec, const LinkSpec* link) {
   UrdfJoint joint = moving_joint(spec);
   const Pose to_link = link ? link->X_JL : Pose{};
@@ -167,7 +169,7 @@ static Pose product(const Pose& a, const Pose& b) {
 void Planner::add_link_with_joints(int number) {
   const LinkSpec& link = robot_.links[number];
   int at = plan_.link(link.parent);
-  Pose X = plan_.links[at].X_UB;  // of our frame there
+  Pose X = plan_.links[at].X_UB;  // of the robot's frame there
   for (const JointSpec& joint : link.joints) {
     at = hang_moved(at, product(X, joint.X_PJ), joint,
                     &joint == &link.joints.back() ? &link : nullptr);
@@ -177,8 +179,8 @@ void Planner::add_link_with_joints(int number) {
   plan_.link_of[number] = at;
 }
 
-/// Readers number DOFs as their joints come, and chains too: joints come chain by chain, but for
-/// leaders, which come as their DOFs do.
+/// Readers number DOFs and chains in the order of the joints: joints are sorted by chain, except
+/// for leaders, which have the order of their DOFs.
 void Planner::order_joints() {
   std::vector<int> of_dof(robot_.dofs.size(), -1), order;
   const int count = static_cast<int>(plan_.joints.size());
@@ -222,7 +224,7 @@ UrdfPlan Planner::plan() {
 
 }  // namespace
 
-// from the root on, each link after its parent, branches in the order of their joints
+// from the root, each link after its parent, branches in the order of their joints
 static TreeModel tree_of(const UrdfPlan& plan) {
   std::vector<std::vector<int>> below(plan.links.size());
   for (int j = 0; j < static_cast<int>(plan.joints.size()); ++j)

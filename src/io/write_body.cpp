@@ -25,7 +25,7 @@ bool is_common(const std::string& material) {
   return std::ranges::count(material_names, material) > 0;
 }
 
-// what a body has that only its surface does not say
+// properties of a body in addition to its surface
 std::vector<std::string> matter_of(const BodySpec& body) {
   const BodySpec plain;
   std::vector<std::string> out;
@@ -39,7 +39,7 @@ std::vector<std::string> matter_of(const BodySpec& body) {
   return out;
 }
 
-// of an elastic body, which only worlds in Lua hold
+// properties of an elastic body, which only worlds in Lua hold
 void add_softness(const BodySpec& body, std::vector<std::string>& out) {
   const BodySpec plain;
   if (body.soft_layer != plain.soft_layer)
@@ -105,7 +105,7 @@ std::string inventor_text(const BodySpec& body) {
   return out + "}\n";
 }
 
-// --- what a format has no place for ---
+// --- properties that a format cannot hold ---
 
 std::vector<std::string> lost(const BodySpec& body, const std::string& ending) {
   std::vector<std::string> out;
@@ -122,7 +122,7 @@ std::vector<std::string> lost(const BodySpec& body, const std::string& ending) {
   return out;
 }
 
-/// Triangles of which corners become one in 32 bits.
+/// Number of triangles with two corners that are equal in 32 bits.
 int too_small(const Mesh& mesh) {
   int count = 0;
   for (const Triangle& t : mesh.triangles) {

@@ -27,7 +27,8 @@ std::string as_lua(std::string_view text) {
   return out + "\"";
 }
 
-/// A decimal that Lua reads back to the bit: "-0" would be an integer, which has no such zero.
+/// A decimal that Lua reads back bit-exactly: "-0" would be read as an integer, which has no signed
+/// zero.
 template <class Number>
 std::string number(Number x) {
   return x == 0 && std::signbit(x) ? "-0.0" : fmt::format("{}", x);
@@ -46,7 +47,7 @@ std::string pose(const Pose& X) {
                      list(std::array{q.w(), q.x(), q.y(), q.z()}));
 }
 
-/// The number that gives `value` when it is divided by `mass`, to the bit where there is one.
+/// The number x with x / mass == value bit-exactly, if there is one; otherwise the nearest.
 double times_mass(double value, double mass) {
   const double near = value * mass;
   for (const double x : {near, std::nextafter(near, -HUGE_VAL), std::nextafter(near, HUGE_VAL)})
@@ -62,7 +63,7 @@ std::string inertia(const BodySpec& body) {
   return "{" + out + "}";
 }
 
-/// Equal to the bit, and so in the signs of zeros, too.
+/// Bit-exact comparison, which includes the signs of zeros.
 template <class Matrix>
 bool same_bits(const Matrix& a, const Matrix& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() &&
@@ -77,8 +78,9 @@ bool same_bits(const Pose& a, const Pose& b) {
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
-/// Properties of a body that its file, or its bare surface, does not give it: key and value in Lua.
-/// `together`: they are options of one call, which computes an inertia about the center given.
+/// Properties of a body that differ from those given by its file or its surface alone: keys and
+/// values in Lua.
+/// together  they are options of one call, which computes an inertia about the given center
 Pairs changes(const BodySpec& now, const BodySpec& was, bool together) {
   Pairs out;
   if (now.material != was.material) out.emplace_back("material", as_lua(now.material));
@@ -162,7 +164,7 @@ class LuaWriter {
   std::string out_;
 };
 
-/// root .. "/models/objects/mug.iv", or the whole path
+/// root .. "/models/objects/mug.iv", or the complete path
 std::string LuaWriter::file(const std::string& path) {
   const std::string near = files_.below_root(path);
   return near.empty() ? as_lua(path) : "root .. " + as_lua("/" + near);
@@ -174,7 +176,7 @@ void LuaWriter::begin() {
       "kilograms.");
   line("local clench = require \"clench\"");
   if (!files_.root().empty()) {
-    // a root above the file is found from there, so that both can be moved together
+    // a root above the file is written relative to it, so that both can be moved together
     const fs::path up = files_.root().lexically_relative(files_.folder());
     const bool above =
         std::ranges::all_of(up, [](const fs::path& part) { return part == ".." || part == "."; });
@@ -233,7 +235,7 @@ void LuaWriter::add_body(const PlacedBody& placed) {
 
 // --- robots ---
 
-/// Base and links, with the expression that names each.
+/// Base and links, with the Lua expression for each.
 static std::vector<std::pair<std::string, const BodySpec*>> parts(const RobotSpec& robot,
                                                                   int index) {
   std::vector<std::pair<std::string, const BodySpec*>> out;
@@ -248,12 +250,12 @@ void LuaWriter::rename_parts(const RobotSpec& now, const RobotSpec& was, int ind
   const auto mine = parts(now, index), theirs = parts(was, index);
   std::vector<size_t> renamed;
   for (size_t i = 0; i < mine.size(); ++i) {
-    // a part's name begins with its robot's, when its file's does
+    // a part's name begins with the robot's name if it does so in the file
     std::string usual = theirs[i].second->name;
     if (usual.starts_with(was.name)) usual = now.name + usual.substr(was.name.size());
     if (usual != mine[i].second->name) renamed.push_back(i);
   }
-  // two passes, for names may have been exchanged
+  // two passes, because names may have been exchanged
   if (renamed.size() > 1)
     for (const size_t i : renamed)
       line(fmt::format("{}.name = {}", mine[i].first,
@@ -304,7 +306,7 @@ static bool same(const std::optional<std::vector<VirtualContactSpec>>& a,
   });
 }
 
-/// Sets that the user gave the hand are written beside, and named by options.
+/// Sets that the user assigned to the hand are written to files, which options name.
 std::string LuaWriter::sets_of(const RobotSpec& now, const RobotSpec& was) {
   std::string out;
   const auto add = [&](const std::string& kind, const std::string& text) {
@@ -319,7 +321,7 @@ std::string LuaWriter::sets_of(const RobotSpec& now, const RobotSpec& was) {
   return out;
 }
 
-/// What its reading was given, and what was chosen of how it closes and approaches.
+/// Options with which the robot was read, and its changed closing directions and approach frame.
 std::string LuaWriter::choices_of(const RobotSpec& now, const RobotSpec& was) {
   std::string out, list;
   if (!now.files.body.empty()) out += ", body = " + as_lua(now.files.body);
@@ -366,7 +368,7 @@ void LuaWriter::add_connection(const Connection& c) {
     const std::string usual = world_.robots[c.child].robot.name + "_mount";
     if (c.mount->name != usual)
       after += fmt::format("world:body({}).name = {}\n", as_lua(usual), as_lua(c.mount->name));
-    // one written just now says all that the format holds
+    // a file that was just written holds all properties of the format
     if (read)
       for (const auto& [key, value] : changes(*c.mount, *read, false))
         after += fmt::format("world:body({}).{} = {}\n", as_lua(c.mount->name), key, value);
@@ -381,7 +383,7 @@ void LuaWriter::add_connection(const Connection& c) {
   out_ += after;
 }
 
-// --- what may collide, and who looks ---
+// --- collisions and sensors ---
 
 void LuaWriter::switch_pairs(const std::vector<std::array<std::string, 2>>& pairs, bool on) {
   if (pairs.empty()) return;

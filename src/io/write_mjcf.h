@@ -7,7 +7,7 @@ namespace clench {
 
 /// Writes SCENE.xml and the meshes SCENE_files/BODY.obj: all or none. Warns of properties that the
 /// scene does not hold.
-/// throws  Error when a file cannot be written; older files stay then
+/// throws  Error if a file cannot be written; older files are kept then
 void write_mjcf(const SceneRequest& request, const std::filesystem::path& path,
                 const WriteOptions& options = {});
 

@@ -1,4 +1,4 @@
-// Worlds as the text of their formats.
+// Worlds as text in the supported formats.
 #pragma once
 #include <string>
 
@@ -7,9 +7,9 @@
 
 namespace clench {
 
-/// The .wld of GraspIt! up to 2.0.
+/// .wld of GraspIt! up to 2.0.
 std::string wld_text(const WorldSpec& world, SavedFiles& files);
-/// The .xml of GraspIt! 2.1 and later.
+/// .xml of GraspIt! 2.1 and later.
 std::string world_xml_text(const WorldSpec& world, SavedFiles& files);
 /// A script for clench.load.
 std::string text_of_lua(const WorldSpec& world, SavedFiles& files);

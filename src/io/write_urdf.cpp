@@ -53,7 +53,7 @@ class UrdfText {
   const UrdfPlan plan_;
   UrdfBeside beside_;
   std::string out_;
-  std::vector<std::string> colors_;  // of materials, by number
+  std::vector<std::string> colors_;  // materials, by number
 };
 
 // --- links ---
@@ -66,7 +66,7 @@ void UrdfText::add_origin(const std::string& indent, const Pose& pose) {
 
 void UrdfText::add_inertial(const UrdfLink& link) {
   const BodySpec& body = *link.body;
-  // what a reader gives a frame that weighs nothing in the file
+  // the mass that readers assign to a frame that has no mass in the file
   const bool frame = !body.shape && !body.appearance.visual && !body.com &&
                      !body.inertia_per_mass && body.mass == 1e-3;
   if (frame) return;
@@ -88,7 +88,7 @@ std::string UrdfText::material(const Appearance& looks) {
   const std::string color =
       fmt::format("{} {} {} {}", within_one(c.x()), within_one(c.y()), within_one(c.z()),
                   1 - double{within_one(looks.transparency)});
-  // one name a color: readers share materials by their names
+  // one name per color: readers share materials by name
   const size_t number = std::ranges::find(colors_, color) - colors_.begin();
   if (number == colors_.size()) colors_.push_back(color);
   return fmt::format("<material name=\"color{}\"><color rgba=\"{}\"/></material>", number, color);
@@ -179,9 +179,9 @@ std::string UrdfText::text() {
   return out_;
 }
 
-// --- what stands beside ---
+// --- additional files ---
 
-/// A URDF has its links' frames on the axes of their joints.
+/// Frames of the links of a URDF are on the axes of their joints.
 void UrdfText::tell_moved_frames() const {
   std::vector<std::string> moved;
   for (const UrdfLink& link : plan_.links)
@@ -224,7 +224,7 @@ void UrdfText::beside_glove() {
   beside_.glove = folder_.glove(glove);
 }
 
-/// Chains and links have the numbers that a reader of the file gives them.
+/// Chains and links are numbered as by a reader of the file.
 void UrdfText::beside_contacts() {
   if (!robot_.virtual_contacts) return;
   const RobotSpec outline = outline_of(plan_);
@@ -242,7 +242,7 @@ void UrdfText::beside_contacts() {
   beside_.virtual_contacts = folder_.virtual_contacts(set);
 }
 
-/// Tells of what a URDF cannot hold.
+/// Reports properties that a URDF cannot hold.
 void report_losses(const RobotSpec& robot, const RobotFolder& folder) {
   std::vector<char> moves(robot.dofs.size());
   each_joint(robot, [&](const JointSpec& joint) { moves[joint.dof] = true; });
@@ -255,7 +255,7 @@ void report_losses(const RobotSpec& robot, const RobotFolder& folder) {
         fmt::format("the {} tendons and {} wrappers", robot.tendons.size(), robot.wrappers.size()));
 }
 
-/// Products of numbers that are in order may not be.
+/// Products of valid numbers may be invalid, infinite for example.
 void check_writable(const RobotSpec& robot, const std::string& file) {
   try {
     check_robot(robot);

@@ -7,7 +7,7 @@
 
 namespace clench {
 
-/// A name that stands alone on its line, and is no comment.
+/// A name as a separate line that is not parsed as a comment.
 static std::string in_a_line(const std::string& name) {
   if (name.find_first_of("\r\n") != std::string::npos || name != trim(name) ||
       name.starts_with('#'))

@@ -117,7 +117,7 @@ struct RowForce {
   double force = 0;  ///< [N or N m]
 };
 
-/// Of a world in motion; flat arrays like WorldState's.
+/// Dynamic state of a world, in flat arrays like those of WorldState.
 struct DynamicState {
   double time = 0;            ///< [s]
   double whole_step = 0;      ///< length of the last step, disregarding impacts [s]

@@ -25,7 +25,7 @@ class ShapeFingerprints {
     uint64_t value = 0;
   };
   std::map<const Shape*, Known> known_;
-  size_t tidy_size_ = 100;  ///< at which those of shapes that are gone are forgotten
+  size_t tidy_size_ = 100;  ///< size at which entries of deleted shapes are removed
 };
 
 /// Fingerprint of surface, mass, center of mass, inertia, material, elasticity, restitution,
@@ -36,9 +36,10 @@ uint64_t fingerprint(const World& world, Id<Body> id);
 /// of joint tendons and of the approach frame. The posture is ignored.
 uint64_t fingerprint(const World& world, Id<Robot> id);
 
-/// Fingerprint of what a posture places: shapes of base and links, the tree of links, frames, axes
-/// and DOFs of joints. Frames count to 1e-9 m, as their rounding differs between file formats.
-/// Masses, materials, limits and motors do not count: studies change them.
+/// Fingerprint of everything that determines poses: shapes of base and links, the tree of links,
+/// frames, axes and DOFs of joints. Frames are rounded to 1e-9 m, because their rounding differs
+/// between file formats. Masses, materials, limits and motors are not included: studies change
+/// them.
 uint64_t mechanism_fingerprint(const World& world, Id<Robot> id, ShapeFingerprints& shapes);
 
 /// 16 hexadecimal digits.

@@ -132,15 +132,16 @@ class World {
   Twist twist(Id<Body> id) const;
   /// velocity of a body that is a part of another
   Twist carried_twist(Id<Body> body, Id<Body> carrier) const;
-  /// Of an object, an obstacle that moves at it from then on, or a robot's base.
+  /// Sets the velocity of an object, of an obstacle, which moves with it from then on, or of a
+  /// robot's base.
   /// throws  Error for a link or a value that is not finite
   void set_twist(Id<Body> id, const Twist& twist);
   DofControl control(Id<Robot> robot, int dof) const;
   Eigen::VectorXd dof_velocities(Id<Robot> id) const;
   /// throws  Error for a wrong count or a number that is not finite
   void set_dof_velocities(Id<Robot> id, const Eigen::VectorXd& velocities);
-  /// Used by steps: velocities, and everything else, are unchanged. Only the validity of the pose
-  /// is checked.
+  /// For steps: velocities and all other state are unchanged. Only the validity of the pose is
+  /// checked.
   void drift(Id<Body> body, const Pose& X_WB);
   /// joints  all, including those that do not follow their DOF
   void drift(Id<Robot> robot, const Pose& X_WB, std::span<const double> dofs,
@@ -166,7 +167,7 @@ class World {
   void add_keyframe(Keyframe keyframe);
   /// The present poses of all bodies and robots as a keyframe.
   Keyframe current_keyframe(const std::string& name) const;
-  /// Moves everything that the keyframe names, except what was removed or is carried.
+  /// Moves all bodies and robots in the keyframe, except those that were removed or are carried.
   /// throws Error for an unknown name, which lists the names
   void set_keyframe(std::string_view name);
 
@@ -224,14 +225,14 @@ class World {
   std::shared_ptr<WorldModel> model_ = std::make_shared<WorldModel>();
   std::shared_ptr<WorldSettings> settings_ = std::make_shared<WorldSettings>();
   WorldState state_;
-  /// Of a world and all its clones: the last numbers that were given. They never go back, so that a
-  /// restored world cannot revive a stale id.
+  /// Shared by a world and all its clones: the last numbers that were assigned. They never
+  /// decrease, so that a restored world cannot make a stale id valid.
   struct Lineage {
     std::atomic<uint32_t> serials = 0;
     std::atomic<uint64_t> stamps = 0;
   };
   std::shared_ptr<Lineage> lineage_ = std::make_shared<Lineage>();
-  /// What no copy takes over.
+  /// State that copies do not take over.
   struct Scratch {
     Scratch() = default;
     Scratch(const Scratch&) {}

@@ -2,7 +2,7 @@
 
 namespace clench {
 
-// what the standard library puts around an item of a set or a map
+// overhead of the standard library for an item of a set or a map
 static constexpr size_t node_bytes = 48;
 
 template <class T>

@@ -13,7 +13,7 @@ void World::set_dynamic_settings(DynamicSettings settings) {
   check(time_step_rule, settings.step, "world");
   for (const auto& [id, robot] : settings.robots)
     if (robot.max_effort) check(positive_rule.called("largest effort"), *robot.max_effort, "robot");
-  // what is as it was at first is no setting
+  // settings with the initial values are not stored
   for (auto& [id, robot] : settings.robots)
     if (std::ranges::none_of(robot.gains, [](const auto& gains) { return gains.has_value(); }))
       robot.gains.clear();
@@ -47,7 +47,7 @@ DynamicState& World::edit_dynamics() {
   return state;
 }
 
-// what a DOF does until it is told otherwise: a motor holds it, if it has one
+// initial control of a DOF: its motor holds the position, if it has one
 DofControl World::first_control(const Robot& r, size_t dof) const {
   return {.mode = r.dofs[dof].driven ? ControlMode::position : ControlMode::effort,
           .target = state_.dofs[r.first_dof + dof],

@@ -2,7 +2,7 @@
 
 namespace clench {
 
-// vectors of different lengths never look alike
+// the size is included, so that vectors of different lengths differ
 static void add(Hasher& h, const Eigen::Ref<const Eigen::VectorXd>& x) {
   h.add(static_cast<uint64_t>(x.size()));
   for (const double value : x) h.add(value);

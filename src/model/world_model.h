@@ -1,4 +1,4 @@
-// The parts of a world: what its things are, what is set for them, and how they are now.
+// The parts of a world: its bodies and robots, its settings, and its current state.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -28,7 +28,8 @@ struct Slot {
   T value;  ///< of the last occupant; its name outlives it, for errors
 };
 
-/// What is there. Shared by clones and snapshots, and copied by who changes it while it is shared.
+/// Bodies and robots. Shared by clones and snapshots; a world copies it before a change while it is
+/// shared.
 struct WorldModel {
   std::vector<Slot<Body>> bodies;
   std::vector<Slot<Robot>> robots;
@@ -45,10 +46,10 @@ struct WorldModel {
   size_t bytes() const;  ///< that it takes, about; meshes, which are shared, left out
 };
 
-/// A named state. What of it was removed stays out.
+/// A named state. Bodies that were removed are omitted.
 using Keyframe = KeyframeOf<Id<Body>, Id<Robot>>;
 
-/// What is set for all; shared likewise.
+/// Settings of the world; shared in the same way.
 struct WorldSettings {
   MaterialTable materials;
   double contact_threshold = 1e-4;  ///< [m]
@@ -87,7 +88,7 @@ struct WorldState {
   std::vector<Pose> X_WB;      ///< by the index of the body's id
   std::vector<double> dofs;    ///< of all robots, from Robot::first_dof on [rad or m]
   std::vector<double> joints;  ///< q, from Robot::first_joint on [rad or m]
-  /// of each joint: is it engaged, and stands where its DOF has it?
+  /// per joint: true if it is engaged, and at the value given by its DOF
   std::vector<unsigned char> follows_dof;
   /// null until something moves: then all is at rest, and no time has passed. Copied by who changes
   /// it while it is shared.

@@ -1,4 +1,4 @@
-// Where the things of a world are: poses, DOFs, joints.
+// State of a world: poses, DOFs, joints.
 #include <algorithm>
 #include <cmath>
 

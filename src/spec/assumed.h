@@ -7,10 +7,10 @@
 
 namespace clench {
 
-/// Notes masses and materials that no file gives, and warns of inertias that are a ball's because
-/// the surface bounds no solid. Bodies without a surface are frames, and left out.
-/// place      what the sentences begin with, "w.wld"
-/// obstacles  stand beside the bodies; of their inertia nothing is told, for they never move
+/// Notes masses and materials that no file gives, and warns of inertias that are those of a ball
+/// because the surface bounds no solid. Bodies without a surface are frames, and are skipped.
+/// place      beginning of the messages, "w.wld"
+/// obstacles  fixed bodies of the same file; their inertia is not reported, because they never move
 void tell_assumed(std::span<const BodySpec* const> bodies, const Place& place,
                   const Diagnostics& diagnostics, std::span<const BodySpec* const> obstacles = {});
 

@@ -36,8 +36,8 @@ struct BodySpec {
   std::string material = "wood";
   double mass = 0.3;  ///< [kg]
   Origin material_from = Origin::assumed, mass_from = Origin::assumed;
-  bool assumptions_told = false;  ///< has the user been told that material or mass are assumed?
-  bool inertia_told = false;      ///< has the user been told the source of a missing inertia?
+  bool assumptions_told = false;  ///< true once assumptions about material or mass are reported
+  bool inertia_told = false;      ///< true once the source of a missing inertia is reported
   /// center of mass in the body frame [m]; absent: computed from the shape
   std::optional<Eigen::Vector3d> com;
   /// about com [m^2]; absent: computed from the shape
@@ -48,9 +48,9 @@ struct BodySpec {
   double restitution = 0;                 ///< coefficient of restitution, in [0, 1]
   /// resistance of a free body, or of the floating base of a robot: to the velocity of the origin
   /// of its frame [m/s] and to its angular velocity [rad/s]
-  double free_damping = 0;   ///< [N s/m] and [N m s/rad]
-  double free_friction = 0;  ///< dry, along each axis [N] and about each of its own axes [N m]
-  double free_armature = 0;  ///< added inertia without weight [kg] and [kg m^2]
+  double free_damping = 0;          ///< [N s/m] and [N m s/rad]
+  double free_friction = 0;         ///< dry, along each axis of the body [N] and about it [N m]
+  double free_armature = 0;         ///< added inertia without weight [kg] and [kg m^2]
   double gravity_compensation = 0;  ///< fraction of its weight that simulations compensate
   std::optional<int> tracker;       ///< number of the position sensor that drives it
 };

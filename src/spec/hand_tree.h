@@ -37,7 +37,7 @@ struct HandTree {
 HandTree hand_tree(const RobotSpec& robot);
 
 const BodySpec& body_of(const RobotSpec& robot, int link);
-/// Its visible shape: its geometry or, without any, what is drawn for it; may be null.
+/// Its visible shape: its geometry or, without any, the surface that is drawn; may be null.
 const ShapePtr& drawn(const BodySpec& body);
 /// Joints of the links between an ancestor (excluded) and a link (included).
 std::vector<const JointSpec*> joints_below(const RobotSpec& robot, int ancestor, int link);

@@ -62,7 +62,7 @@ struct TendonPull {
 struct ActuatorSpec {
   std::string name;           ///< empty: it has none
   std::string kind;           ///< as its file calls it: "motor", "position", "general"
-  std::string joint, tendon;  ///< what it drives: the name of one of them; the other one is empty
+  std::string joint, tendon;  ///< target: the name of one of them; the other one is empty
   /// joints of the tendon; empty: it pulls the DOF itself, with coefficient 1
   std::vector<TendonPull> pulls = {};
   int dof = -1;            ///< DOF that it moves, for a tendon that of its first joint; -1: none

@@ -16,7 +16,7 @@ struct Image {
   bool operator==(const Image&) const = default;
 };
 
-/// How an image goes on beyond its edges.
+/// Continuation of an image beyond its edges.
 enum class Wrap : char { repeat, mirror, clamp };
 
 /// An image as a material uses it.

@@ -1,4 +1,4 @@
-// Files of tests/data/bad, each refused with the sentence that stands in a .txt beside it.
+// Files of tests/data/bad, each rejected with the message in the .txt file next to it.
 #pragma once
 #include <doctest/doctest.h>
 

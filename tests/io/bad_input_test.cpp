@@ -1,4 +1,4 @@
-// Every file of tests/data/bad/<format>/ is refused with the sentence in the file beside it.
+// Every file of tests/data/bad/<format>/ is rejected with the message in the file next to it.
 #include "bad_files.h"
 #include "read_any.h"
 

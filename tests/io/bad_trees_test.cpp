@@ -1,4 +1,4 @@
-// Every URDF and MJCF file of tests/data/bad is refused with the sentence in the file beside it.
+// Every URDF and MJCF file of tests/data/bad is rejected with the message in the file next to it.
 #include <algorithm>
 
 #include "bad_files.h"

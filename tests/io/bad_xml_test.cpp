@@ -1,5 +1,5 @@
-// Every file of tests/data/bad/xml/ is refused with the sentence that stands beside it. What it is
-// meant to be begins its name: body, robot or world.
+// Every file of tests/data/bad/xml/ is rejected with the message in the file next to it. The file
+// name begins with its kind: body, robot or world.
 #include "bad_files.h"
 #include "clench/io/read.h"
 

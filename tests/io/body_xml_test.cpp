@@ -99,7 +99,7 @@ TEST_CASE("geometry is scaled first, then moved by an offset that is not") {
         "</geometryFile><geometryScaling>10</geometryScaling><geometryOffset><transform>"
         "<translation>100 0 0</translation><rotation>90 z</rotation></transform>"
         "</geometryOffset>\n");
-    // turned about z, x and y are exchanged
+    // the rotation about z exchanges x and y
     CHECK((size(body) - Eigen::Vector3d(0.04, 0.02, 0.06)).norm() < 1e-8);
     const Eigen::Vector3d middle = 0.5 * (body.shape->bounds().high + body.shape->bounds().low);
     CHECK((middle - Eigen::Vector3d(0.1, 0, 0)).norm() < 1e-8);

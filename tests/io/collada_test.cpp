@@ -23,7 +23,7 @@ TEST_CASE("the unit and the upward axis of a COLLADA file are its own") {
   CHECK((cm.mesh.bounds().size() - Eigen::Vector3d(1, 2, 4)).norm() < 1e-12);  // rounding of 0.01
   CHECK(cm.report.unit_source == UnitSource::file);
   CHECK(cm.appearance.color == Eigen::Vector3f(1, 0.5f, 0));
-  // meters and y up are what the format takes for granted
+  // meters and y up are the defaults of the format
   const Geometry silent = read_with("");
   CHECK(silent.mesh.bounds().size() == Eigen::Vector3d(100, 400, 200));
   CHECK(silent.report.unit_source == UnitSource::format);

@@ -1,5 +1,5 @@
-// Reading that is confined to a folder: nothing outside is read, however a file names it, and no
-// answer tells what is there.
+// Reading that is confined to a folder: no file outside is read, whatever path names it, and
+// messages do not reveal which files exist outside.
 #include "clench/io/text/confine.h"
 
 #include <doctest/doctest.h>
@@ -24,8 +24,8 @@ const std::string triangle_iv =
     "#Inventor V2.1 ascii\nCoordinate3 { point [0 0 0, 100 0 0, 0 100 0] }\n"
     "IndexedFaceSet { coordIndex [0, 1, 2, -1] }\n";
 
-/// A folder `inside` to which reading is confined, one `outside` it with files that could be read,
-/// and ways from the one to the other.
+/// A folder `inside` to which reading is confined, a folder `outside` with readable files, and
+/// paths and links from the one to the other.
 struct Fences {
   Fences() {
     for (const std::string side : {"inside/", "outside/"})
@@ -67,12 +67,12 @@ bool says_outside(const std::string& sentence) {
   return says;
 }
 
-/// A file that names another as "%", and whether it is a body, robot or world.
+/// A file that names another as "%", with its kind: body, robot or world.
 struct Referrer {
   const char* file;
-  const char* ending;  ///< of what it names
+  const char* ending;  ///< kind of the file that it names
   const char* text;
-  bool deeper = false;  ///< do names count from folders that are perhaps not there?
+  bool deeper = false;  ///< true if names are relative to folders that may be missing
 };
 
 constexpr Referrer referrers[] = {
@@ -125,9 +125,9 @@ TEST_CASE("a path lies within a folder when it leads there, by links and dots, o
     CAPTURE(out);
     CHECK_FALSE(lies_within(out, in));
   }
-  // of a folder that nobody can tell nothing lies within
+  // nothing lies within a folder that cannot be resolved
   CHECK_FALSE(lies_within(in / "part.off", in / "circle.off"));
-  // the folder may be reached by a link itself
+  // the path of the folder may itself contain a link
   fs::create_symlink(in, fences.folder.path() / "name");
   CHECK(lies_within(fences.folder.path() / "name/part.off", in));
   CHECK(lies_within(in / "part.off", fences.folder.path() / "name"));
@@ -149,7 +149,8 @@ TEST_CASE(
       CAPTURE(text);
       const std::string sentence = refusal([&] { read_any(file, fences.options); });
       if (referrer.deeper && sentence.find("no such file") != std::string::npos)
-        CHECK(sentence.find(excerpt(name)) != std::string::npos);  // it leads nowhere from there
+        // no path outside is accessible from there
+        CHECK(sentence.find(excerpt(name)) != std::string::npos);
       else
         CHECK(says_outside(sentence));
       fs::remove(file);
@@ -177,12 +178,12 @@ TEST_CASE("what is there outside makes no difference to any sentence") {
   CHECK(told("link/part.off") == told("link/none.off"));
   CHECK(told("linked.off") == told("dangling.off"));
   CHECK(told("../outside") == told("../nowhere"));
-  // a near name, and one in another case, are looked for inside alone
+  // similar names, and names in other case, are searched only inside
   CHECK(told("../outside/prat.off") == told("../outside/qqqqqqqq"));
   CHECK(told("../OUTSIDE/part.off") == told("../NOWHERE/part.off"));
   CHECK(told("prat.off") == "no such file: NAME; did you mean 'part.off'?");
   CHECK(find_file("PART.off", referrer, fences.options) == fences.inside() / "part.off");
-  // also found by case alone, a link leads where it leads
+  // a link found by case alone is followed, too
   CHECK(told("LINKED.off") == "no such file: NAME; did you mean 'linked.off'?");
 }
 
@@ -204,7 +205,7 @@ TEST_CASE("the user's own names, folders and chosen files are confined, too") {
       "filename=\"package://pack/mesh.off\"/></geometry></collision></link></robot>");
   CHECK(says_outside(refusal([&] { read_robot(urdf, options); })));
 
-  // eigengrasps that a hand's file names are left out with a warning, as are those that are missing
+  // a hand's eigengrasps outside are skipped with a warning, like missing ones
   Warnings warnings;
   options = warnings.options();
   options.confine = fences.inside();
@@ -254,7 +255,7 @@ TEST_CASE("what is read again to be saved is confined as it was") {
   world.order = {{WorldEntry::Kind::robot, 0}};
   for (const char* file : {"w.xml", "w.lua"}) {
     WriteOptions options;
-    // the eigengrasps outside hold something else
+    // the eigengrasps outside have other contents
     CHECK(refusal([&] {
             write_world(world, fences.folder.path() / file, options);
           }).find("part.egr:") != std::string::npos);

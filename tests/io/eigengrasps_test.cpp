@@ -109,7 +109,7 @@ TEST_CASE("XML says the same, with limits, and what it leaves out has the format
   CHECK((*set.grasps[0].limits)[0] == -4);
   CHECK(set.grasps[1].eigenvalue == 0.5);
   CHECK(*set.origin == vec({0, 0.2, 0}));
-  // a scale of 0 would hold a DOF for ever: what is left out is 1
+  // a scale of 0 would fix a DOF; an omitted scale is 1
   CHECK(*set.norm == vec({1, 1, 3}));
   CHECK_FALSE(
       read_set("<EigenGrasps dimensions='1'><EG><DimVals d0='1'/></EG></EigenGrasps>").origin);

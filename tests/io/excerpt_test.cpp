@@ -1,4 +1,4 @@
-// Messages quote only the beginning of any one place of a file, whatever is wrong with it.
+// Messages quote only the beginning of any text in a file, for any kind of error.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// No 41 characters of it stand in it twice.
+/// A text in which no sequence of 41 characters occurs twice.
 std::string long_word(const std::string& letters) {
   std::string out;
   for (size_t i = 0; out.size() < 120; ++i) out += letters[(i * i / 3 + i) % letters.size()];
@@ -31,7 +31,7 @@ bool quotes_too_much(const std::string& message, const std::string& word) {
   return false;
 }
 
-/// All that reading says.
+/// All messages of reading the file.
 std::vector<std::string> told(const fs::path& file, const fs::path& folder) {
   std::vector<std::string> list;
   ReadOptions options;
@@ -75,7 +75,7 @@ TEST_CASE("no message quotes more of a word than its beginning, wherever it stan
     const std::string ending = ending_of(file), text = read_bytes(file);
     if (ending == ".lua" || ending == ".txt") continue;
     const auto places = words_of(text);
-    // some of the many, others in each file
+    // a sample of the positions
     for (size_t i = files.size() % 3; i < places.size(); i += 1 + places.size() / 3) {
       const std::string& word = words[changed++ % 2];
       std::string spoilt = text;

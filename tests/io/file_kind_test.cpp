@@ -36,7 +36,7 @@ TEST_CASE("every ending of a body's file is loaded, checked and tried for anothe
       CHECK(file_kind("a" + ending) == FileKind::body);
       CHECK(geometry_format(ending) != GeometryFormat::none);
     }
-    // a reader complains of what is in it, not of its name
+    // the reader complains of its contents, not of its name
     const auto file = folder.write("part" + ending, "?");
     std::string refused;
     try {
@@ -46,7 +46,7 @@ TEST_CASE("every ending of a body's file is loaded, checked and tried for anothe
     }
     CHECK(refused.starts_with("part" + ending));
     CHECK(refused.find("expected a body from") == std::string::npos);
-    // the same part under a name that is gone
+    // the same data under an unknown name
     CHECK(find_converted("part.old", folder.path() / "x", ModelKind::body, Place(), {}) == file);
     std::filesystem::remove(file);
   }
@@ -76,7 +76,7 @@ TEST_CASE("a file of numbers is known by how they stand") {
   CHECK(kind("1\n1\n" + edge + "1 0 0 0\n1 2 3\n0 0 1\n0.5\n") == FileKind::object_contacts);
   CHECK(kind("1\n1\n" + edge + "1 0 0 0\n0 0 1\n0.5\n") == FileKind::object_contacts);
   CHECK(kind("1\n2\n-1\n1 7 8\n0\n0\n0 0 0 1\n1 2 3\n") == FileKind::glove_poses);
-  // with mistakes in them
+  // with errors in them
   CHECK(kind("1 2\n0.1 x\n0.3\n") == FileKind::glove_calibration);
   CHECK(kind("2 2\n0.1 1\n0.3\n") == FileKind::glove_calibration);
   CHECK(kind("2\n1\n" + edge) == FileKind::object_contacts);

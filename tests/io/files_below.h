@@ -1,4 +1,4 @@
-// The files of a folder and of those in it.
+// Lists the files in a folder and its subfolders.
 #pragma once
 #include <algorithm>
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace clench::test {
 
-/// sorted by path; none when there is no such folder
+/// sorted by path; empty if there is no such folder
 /// extensions  in lower case, with the dot
 inline std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder,
                                                       const std::vector<std::string>& extensions) {

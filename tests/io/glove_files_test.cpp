@@ -30,7 +30,7 @@ TEST_CASE("the calibrations of the original load, for each of its human hands") 
     CHECK(glove.slopes.rows() == dofs);
     CHECK(glove.slopes.cols() == 24);
     CHECK(glove.intercepts.size() == dofs);
-    // bent fingers raise the raw numbers: at 255 each no joint is turned more than twice
+    // bent fingers raise the raw readings: at 255 each, no joint is turned beyond twice its range
     CHECK((glove.intercepts + glove.slopes * Eigen::VectorXd::Constant(24, 255))
               .cwiseAbs()
               .maxCoeff() < 12);

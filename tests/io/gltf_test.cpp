@@ -144,7 +144,7 @@ TEST_CASE("what a glTF file holds and is not used is told") {
 }
 
 TEST_CASE("a small glTF file that places a mesh many times is refused") {
-  std::string text = whole_gltf(ball(1, 60, 60));  // of 7080 triangles, 200 times
+  std::string text = whole_gltf(ball(1, 60, 60));  // 7080 triangles, 200 times
   std::string nodes = R"({"mesh": 0})", numbers = "0";
   for (int i = 1; i < 200; ++i) {
     nodes += R"(, {"mesh": 0})";

@@ -37,7 +37,7 @@ std::vector<GraspSpec> some_grasps() {
     g.points = {{.p_O = {0, 0, 0}, .n_O = {0, 0, 1}, .mu = 1}};
     g.pregrasp = PregraspState{random_pose(random, 0.3), {0.5, 0, 0}};
     g.hand_file = "hands/panda.urdf";
-    g.hand_fingerprint = "00000000000000e5";  // a number, were it no text
+    g.hand_fingerprint = "00000000000000e5";  // a number if it were not quoted
     g.object_fingerprint = i % 3 ? "0123456789abcdef" : "";
     g.settings_fingerprint = fmt::format("{:016x}", i);
     g.engine_version = "0.10";
@@ -105,7 +105,7 @@ TEST_CASE(
       CHECK(b.object_name == "7");
       if (c.dofs) {
         CHECK(a.hand_name == b.hand_name);
-        // behind them joints that follow
+        // followed by joints that are not DOFs
         CHECK(std::equal(a.dofs.begin(), a.dofs.end(), b.dofs.begin()));
         CHECK(std::equal(a.dof_names.begin(), a.dof_names.end(), b.dof_names.begin()));
       }
@@ -132,7 +132,7 @@ TEST_CASE(
 
 TEST_CASE("files that other programs wrote are read") {
   const TemporaryFolder folder;
-  // in the style of YAML's usual writers, and as the format's documentation shows it
+  // in the style of common YAML writers, and as in the format's documentation
   const auto isaac = read_grasp_file(folder.write("g.yaml", R"(format: isaac_grasp
 format_version: 1.0
 # frames
@@ -332,7 +332,7 @@ TEST_CASE("a table that is cut anywhere in its last row keeps the others, with a
                        in_quotes(last)
                  : "a.csv:3: the last line is cut short and is skipped, got "));
   }
-  // of a list without a complete row, and in a row that has an end, it is an error
+  // an error if the list has no complete row, or the row has a line end
   for (const std::string& text : {head + "\"a", head + "a,0.5", first + "a,0.5\n", first + "\"a\n"})
     CHECK_THROWS_AS(read_grasp_file(folder.write("a.csv", text)), Error);
 }

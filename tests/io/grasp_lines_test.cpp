@@ -131,7 +131,7 @@ TEST_CASE("a list that is cut anywhere in its last line keeps the others, with a
     CAPTURE(size);
     write_file(path, text.substr(0, size));
     warned.clear();
-    const bool complete = size + 1 >= text.size();  // only the end of the line may be missing
+    const bool complete = size + 1 >= text.size();  // only the line end may be missing
     REQUIRE(read_grasps(path, options).size() == (complete ? 3 : 2));
     REQUIRE(warned.starts_with(
         complete || size == last ? ""

@@ -8,7 +8,7 @@
 using namespace clench;
 using namespace clench::test;
 
-// degrees and millimeters cost a rounding or two
+// degrees and millimeters cause one or two rounding errors
 static constexpr double unit_rounding = 1e-15;
 
 TEST_CASE("pre-grasps are read in meters and radians, their directions made unit") {
@@ -52,7 +52,7 @@ TEST_CASE("a marker begins another run of planned grasps") {
   CHECK(list[0].measures.at("quality") == 0.25);
   CHECK(list[1].X_OH->rotation.x() == 1);
   CHECK(list[2].info.at("run") == 2);
-  // files of one run may do without
+  // files of a single run may omit it
   CHECK(read_planned_grasps(folder.write("b.txt", "1 2 3 1 0 0 0 60 0.25\n"))[0].info.at("run") ==
         1);
 }

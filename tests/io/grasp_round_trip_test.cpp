@@ -105,7 +105,7 @@ GraspSpec plain_grasp(Random& random) {
   return g;
 }
 
-/// Something of each grasp is odd, or of the whole list.
+/// Grasps with one unusual part each, or lists with one.
 std::vector<GraspSpec> odd_list(Random& random) {
   std::vector<GraspSpec> list((random.bits() % 4));
   const bool same = (random.bits() % 2) == 0;
@@ -231,14 +231,14 @@ void check_back(const GraspSpec& a, const GraspSpec& b, const SavedFormat& forma
     CHECK(a.object_name == b.object_name);
   }
   if (format.dofs) {
-    // isaac_grasp lists joints behind the DOFs
+    // isaac_grasp lists joints after the DOFs
     const auto ours = by_name(a), theirs = by_name(b);
     CHECK(std::ranges::includes(theirs, ours));
     if (a.joint_names.empty()) CHECK(ours == theirs);
     CHECK(a.dof_names.empty() == b.dof_names.empty());
   }
   if (!format.notes) return;
-  // an array of texts has empty ones where a grasp has no label
+  // an array of texts contains an empty one if a grasp has no label
   auto labels = a.labels;
   if (std::string_view(format.name) == "npz")
     std::erase_if(labels, [](const auto& one) { return one.second.empty(); });

@@ -1,5 +1,4 @@
-// What is guessed of how hands approach, where their files say it, and how fast they close, where
-// they do not.
+// Guesses of how hands approach, compared with files that specify it, and of how fast they close.
 #include <map>
 
 #include "clench/io/read.h"
@@ -39,11 +38,11 @@ std::vector<double> paces(const std::vector<PacedLink>& rows, std::vector<double
 TEST_CASE("the approach of our hands is guessed as their files say it") {
   struct Hand {
     const char* file;
-    double beside;  // of the guessed line of approach [m]
+    double beside;  // from the guessed approach line [m]
   };
-  // Of 60 random approaches of a cube, a ball and a can along the file's line and along the guessed
-  // one, in force closure end 57 and 57 of the DLR hand, 6 and 8 to 34 of Robonaut's, within 10 mm:
-  // their lines lie on wide plateaus.
+  // With 60 random approaches of a cube, a ball and a can, 57 along the file's line and 57 along
+  // the guessed line end in force closure with the DLR hand, and 6 and 8 to 34 with Robonaut's
+  // hand, within 10 mm: the lines are on wide plateaus.
   for (const Hand& hand : {Hand{"barrett/barrett.cfg", 0.015},
                            {"dlr/dlr.cfg", 0.05},
                            {"human/human16.cfg", 0.015},
@@ -63,7 +62,7 @@ TEST_CASE("the approach of our hands is guessed as their files say it") {
     CHECK(z.dot(guess->rotation * Vector3d::UnitZ()) > std::cos(0.26));  // 15 degrees
     const Vector3d way = guess->position - robot.X_BA->position;
     CHECK((way - way.dot(z) * z).norm() < hand.beside);
-    // what is held stands before the palm, where files have the point
+    // the approach point of files is in front of the palm
     CHECK(way.dot(z) > 0);
   }
 }
@@ -80,11 +79,11 @@ TEST_CASE("a joint that does not close makes none behind it slower") {
 }
 
 TEST_CASE("a DOF of several joints is slowed when all of them stand behind others") {
-  // joints of DOF 0 behind one another, as of tendons
+  // joints of DOF 0 in sequence, as with tendons
   CHECK(paces({{-1, {0}}, {0, {0}}, {1, {0}}}, {1}) == std::vector<double>{1});
-  // DOF 1 bends one finger at its root, another behind DOF 0
+  // DOF 1 bends one finger at its root, another beyond DOF 0
   CHECK(paces({{-1, {0}}, {0, {1}}, {-1, {1}}}, {1, 1}) == std::vector<double>{1, 1});
-  // a joint of DOF 0 beyond DOF 1 takes it no pace
+  // a joint of DOF 0 beyond DOF 1 does not slow it down
   CHECK(paces({{-1, {0}}, {0, {1}}, {1, {0}}}, {1, 1}) == std::vector<double>{1, 0.5});
 }
 

@@ -1,4 +1,4 @@
-// Small files that ask for much memory or time.
+// Small files that request much memory or time.
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -13,7 +13,7 @@
 #include "support/folder.h"
 
 #if defined(__SANITIZE_ADDRESS__)
-static constexpr bool counts_memory = false;  // the sanitizer keeps what was freed
+static constexpr bool counts_memory = false;  // the sanitizer keeps freed memory
 #else
 static constexpr bool counts_memory = true;
 #endif
@@ -23,7 +23,7 @@ using namespace clench::test;
 
 namespace {
 
-/// kB of a row of /proc/self/status; 0: there is none.
+/// kB in a row of /proc/self/status; 0: there is no such row.
 size_t status_kb(const std::string& name) {
   std::ifstream file("/proc/self/status");
   for (std::string line; std::getline(file, line);)
@@ -31,9 +31,9 @@ size_t status_kb(const std::string& name) {
   return 0;
 }
 
-/// Memory that a call takes beyond what there is before it, at its peak [bytes].
+/// Peak memory of a call in excess of the memory before it [bytes].
 size_t peak_of(const std::function<void()>& call) {
-  { std::ofstream("/proc/self/clear_refs") << "5\n"; }  // the peak begins here
+  { std::ofstream("/proc/self/clear_refs") << "5\n"; }  // resets the peak
   const size_t before = status_kb("VmRSS");
   call();
   const size_t peak = status_kb("VmHWM");
@@ -56,7 +56,7 @@ std::string joined_items(size_t count, const char* separator, Item item) {
 const std::string list_head_line = "{\"format\":\"clench grasps\",\"version\":1}\n";
 const std::string csv_pose = "x [m],y [m],z [m],qw,qx,qy,qz";
 
-/// An archive whose directory names one array many times.
+/// An archive whose directory lists one array many times.
 std::string shared_arrays(size_t names, size_t size) {
   const std::string one =
       npz_bytes({{"a", {.shape = {size}, .numbers = std::vector<double>(size)}}});
@@ -65,7 +65,7 @@ std::string shared_arrays(size_t names, size_t size) {
   std::string out = one.substr(0, from);
   for (size_t i = 0; i < names; ++i) {
     std::string named = entry;
-    // another name of as many bytes
+    // another name of the same length
     named.replace(named.rfind("a.npy"), 1, 1, static_cast<char>('a' + i % 26));
     out += named;
   }
@@ -172,7 +172,7 @@ TEST_CASE(
         said = error.what();
       }
     });
-    // of heads of blocks and of what the heap keeps
+    // heap headers and memory that the heap keeps
     const size_t slack = size_t{16} << 20;
     if (counts_memory)
       CHECK_MESSAGE(peak <= MemoryBudget::fixed + MemoryBudget::times * one.bytes.size() + slack,
@@ -248,7 +248,7 @@ TEST_CASE("JSON is read with the lines of its values, and syntax errors are name
   CHECK(!root.find("d"));
   CHECK_THROWS_WITH_AS(parse_yaml("a.json", "{\"a\":1,\"a\":2}"), "a.json:1: key 'a' appears twice",
                        Error);
-  // long texts are JSON or nothing
+  // long texts must be JSON
   const std::string blanks(600000, ' ');
   const std::pair<const char*, const char*> faults[] = {
       {"[1,]", "expected a value, got ']'"},

@@ -1,5 +1,5 @@
-// Inventor and VRML files made to crash, to run code, to hang or to fill all memory: a sentence, or
-// the body without what was hostile.
+// Inventor and VRML files designed to crash, to run code, to hang or to exhaust the memory: they
+// give an error, or a body without the hostile part.
 #include "clench/base/error.h"
 #include "clench/base/text.h"
 #include "clench/io/read.h"
@@ -19,7 +19,7 @@ std::string repeated(int count, const std::string& text) {
   return out;
 }
 
-/// Triangles of the body, or the sentence that refuses it; warnings behind each other.
+/// Number of triangles of the body, or the error message; followed by the warnings.
 struct Outcome {
   std::string sentence, warnings;
   size_t triangles = 0;
@@ -153,11 +153,11 @@ TEST_CASE("what shapes list has an end, shared or not, with triangles or without
                        repeated(200'000, "0,") + " ] } }")) == limit);
   CHECK(refusal(wrl + "DEF s Shape { geometry Extrusion { crossSection [ ] spine [ " +
                 repeated(100'000, "0 0 0,") + " ] } }\n" + repeated(999, "USE s ")) == limit);
-  // the same word again and again is said once
+  // the same word again and again is reported once
   CHECK(read_text_as_body(copies("ResetTransform { whatToReset (" +
                                  repeated(200'000, "TRANSFORM |") + " BBOX) }"))
             .sentence == "");
-  // shapes may share as many points as they like
+  // shapes may share any number of points
   CHECK(read_text_as_body(wrl + "DEF s Shape { geometry IndexedFaceSet { coordIndex [ 0 1 2 ] " +
                           "coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 " +
                           repeated(60'000, "0 0 0,") + " ] } } }\n" + repeated(499, "USE s "))
@@ -179,13 +179,13 @@ TEST_CASE("names, warnings and PROTOs of a file have an end") {
       told.find("a.iv:1001: unknown node 'X' is skipped\na.iv: further warnings are left out\n") !=
       std::string::npos);
   CHECK(told.find("a.iv:1002:") == std::string::npos);
-  // those that the walk finds
+  // repairs found during the traversal
   const std::string found =
       read_text_as_body(iv + repeated(1500, "Complexity{type SCREEN_SPACE}\n")).warnings;
   CHECK(found.find("a.iv:1001: Complexity: SCREEN_SPACE is read as OBJECT_SPACE\n"
                    "a.iv: further warnings are left out\n") != std::string::npos);
   CHECK(found.find("a.iv:1002:") == std::string::npos);
-  // a suggestion is not looked for among long names
+  // suggestions are not searched among long names
   std::string named = iv;
   for (int i = 0; i < 50; ++i)
     named += fmt::format("DEF {}{} Group {{ }}\n", std::string(60'000, 'a'), i);
@@ -193,7 +193,7 @@ TEST_CASE("names, warnings and PROTOs of a file have an end") {
 }
 
 TEST_CASE("PROTOs are read again for each instance, with an end") {
-  // a default that names the PROTO itself, or one of those before
+  // a default that names the PROTO itself, or an earlier one
   CHECK(refusal(wrl + "PROTO P [ field SFNode x P { } ] { Group { } }\nP { }") ==
         "a.iv:2: PROTO 'P' is used inside a PROTO, which is not read");
   std::string doubled = wrl + "PROTO P0 [ ] { Group { } }\n";
@@ -203,7 +203,7 @@ TEST_CASE("PROTOs are read again for each instance, with an end") {
         i, i - 1);
   CHECK(refusal(doubled + "P39 { }") ==
         "a.iv:3: PROTO 'P0' is used inside a PROTO, which is not read");
-  // values that hold instances, each used twice
+  // values that contain instances, each used twice
   std::string nested;
   for (int i = 0; i < 40; ++i) nested += "P { x ";
   CHECK(refusal(wrl +

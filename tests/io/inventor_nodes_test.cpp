@@ -152,13 +152,13 @@ TEST_CASE("an extrusion sweeps its outline along its spine, closed by caps") {
     return body.shape->solid().volume * 1e9;
   };
   CHECK(volume("") == doctest::Approx(4));
-  CHECK(volume("ccw FALSE") == doctest::Approx(4));  // turned outward
+  CHECK(volume("ccw FALSE") == doctest::Approx(4));  // facing outward
   CHECK(volume("spine [ 0 0 0, 0 5 0 ] scale [ 1 1, 2 2 ]") ==
         doctest::Approx(5.0 / 3 * (4 + 16 + 8)));
   CHECK(volume("spine [ 0 0 0, 3 0 0 ]") == doctest::Approx(12));
   CHECK(volume("spine [ 0 0 0, 0 -3 0 ]") == doctest::Approx(12));
   CHECK(volume("spine [ 0 0 0, 1 2 2 ] orientation [ 0 1 0 0.3 ]") == doctest::Approx(12));
-  // an outline that is not convex, and one round a corner: a prism each way, mitred
+  // an outline that is not convex; then a spine with a corner, which gives two mitred prisms
   CHECK(volume("convex FALSE crossSection [ 0 0, 0 4, 2 1, 4 4, 4 0, 0 0 ]") ==
         doctest::Approx(16 - 6));
   CHECK(volume("spine [ 0 0 0, 0 10 0, 10 10 0 ] crossSection [ 1 1, 1 -1, -1 -1, -1 1, 1 1 ]") >
@@ -190,7 +190,7 @@ TEST_CASE("a PROTO's instance has its own values, or those of the PROTO") {
                {-1, -1, -1}, {6, 11, 1});
   CHECK_THROWS_WITH_AS(read_vrml_nodes(box + "Block { sise 1 2 3 }"),
                        "a.iv:5: PROTO 'Block' has no field 'sise'", Error);
-  // names within a PROTO are its own
+  // names within a PROTO are local
   CHECK_THROWS_WITH_AS(read_vrml_nodes("PROTO P [ ] { DEF x Group { } }\nP { }\nUSE x"),
                        "a.iv:4: USE of 'x', which nothing above defines", Error);
   // as the value of a field it is its first node

@@ -11,7 +11,7 @@ using clench::test::TemporaryFolder;
 using clench::test::Warnings;
 using Eigen::Vector3d;
 
-// scene graphs are single precision
+// scene graphs have single precision
 static constexpr double single = 1e-6;
 
 static std::vector<Primitive> read_inventor(const std::string& body,
@@ -33,7 +33,7 @@ Cone { bottomRadius 3 height 9 })");
   CHECK(list[1].kind == PrimitiveKind::cylinder);
   CHECK(list[1].radius == doctest::Approx(0.005));
   CHECK(list[1].height == doctest::Approx(0.05));
-  // its axis, y, lies along z
+  // its axis, y, is along z
   CHECK((list[1].X_OP.rotation * Vector3d::UnitY() - Vector3d::UnitZ()).norm() < single);
   CHECK(list[2].radius == doctest::Approx(0.007));
   CHECK(list[3].kind == PrimitiveKind::cone);
@@ -106,7 +106,7 @@ TEST_CASE("of an XML body the geometry's primitives are read, scaled and placed 
          Vector3d(0.002, 0.004, 0.018))
             .norm() < single);
 
-  // of a file whose ending says nothing the type counts
+  // if the ending is unknown, the attribute `type` determines the format
   folder.write("shape.dat", head + "Sphere { }");
   CHECK(read_inventor("<geometryFile type='Inventor'>shape.dat</geometryFile>").size() == 1);
   CHECK_THROWS_WITH_AS(read_inventor("<geometryFile>shape.off</geometryFile>"),
@@ -120,7 +120,7 @@ TEST_CASE("of an XML body the geometry's primitives are read, scaled and placed 
   CHECK_THROWS_WITH_AS(read_primitives(folder.write("hand.xml", "<robot/>")),
                        "hand.xml:1: expected a body, got <robot>", Error);
 
-  // what somebody has simplified goes before it, and stands in the body's frame
+  // the simplified file is preferred, and is in the body's frame
   folder.write("primitives/mug.iv", head + "Cone { }");
   CHECK(read_inventor(file + "<geometryScaling>2</geometryScaling>")[0].kind ==
         PrimitiveKind::cone);

@@ -299,7 +299,7 @@ TEST_CASE("a file may be included ten thousand times, and no more often") {
 
 TEST_CASE("a file included again is not read again") {
   const TemporaryFolder folder;
-  // ten thousand times two megabytes would take half a minute
+  // two megabytes included ten thousand times would take half a minute
   folder.write("large.iv", "#Inventor V2.1 ascii\n" + std::string(2 << 20, '\n'));
   std::string text = "#Inventor V2.1 ascii\n";
   for (int i = 0; i < 10'000; ++i) text += "File { name \"large.iv\" }\n";
@@ -362,7 +362,7 @@ TEST_CASE("nodes that stand inside a shape, as in old files, are its own") {
         "IndexedFaceSet { Normal { vector [0 0 1] } " + red + " coordIndex [ 0, 1, 2 ] }",
         "DEF face FaceSet { " + red + " numVertices 3 }"}) {
     INFO(shape);
-    // for it alone: the next face has the color from before
+    // only for this shape: the next face has the color set before
     const auto found = colors(green + shape + " FaceSet { numVertices 3 }", old);
     REQUIRE(found.size() == 2);
     CHECK(found[0].x() == 1);
@@ -373,7 +373,7 @@ TEST_CASE("nodes that stand inside a shape, as in old files, are its own") {
                            old);
   CHECK(used[0].x() == 1);
   CHECK(used[1].y() == 1);
-  // in a shape's field it stays
+  // in a shape's field it remains local
   CHECK(body("FaceSet { vertexProperty DEF v VertexProperty { vertex [ 0 0 0, 10 0 0, 10 10 0 ] } "
              "numVertices 3 }",
              old)
@@ -413,7 +413,7 @@ TEST_CASE("faces have the colors that their binding gives them") {
         std::vector{red, blue});  // corners 0 and 3
   CHECK(colors(head + "PER_VERTEX_INDEXED } " + faces +
                "materialIndex [ 1,1,1,-1,2,2,2,-1 ] } }") == std::vector{green, blue});
-  // indices that fit nothing do no harm
+  // indices that do not match are harmless
   CHECK(colors(head + "PER_FACE_INDEXED } " + faces + "materialIndex [ 2 ] } }") ==
         std::vector{blue, red});
   CHECK(body(head + "PER_FACE_INDEXED } " + faces + "materialIndex [ 99, 99 ] } }")

@@ -1,4 +1,4 @@
-// Fields that a node type does not have, and what only files of Inventor 1 have.
+// Fields that a node type does not have, and features of Inventor 1 files.
 #include "clench/base/error.h"
 #include "clench/io/read.h"
 #include "support/shared.h"
@@ -55,7 +55,7 @@ TEST_CASE("an unknown field is skipped with its value of any kind") {
                           "3 = Engine { }.out",
                           "~",
                           "IS width"};
-  // each stands before a field, between two and at the end of a node, and before a child
+  // each is placed before a field, between two, at the end of a node, and before a child
   const std::string before = "DEF other Group { }\nSeparator { ", after = "}";
   const std::string places[] = {
       "ShapeHints { # faceType CONVEX }\nCube { width 10 height 20 depth 30 }",
@@ -118,7 +118,7 @@ TEST_CASE("a strict reader refuses an unknown field") {
 }
 
 TEST_CASE("hints of Inventor 1 say whether faces are convex") {
-  // a concave face, whose fan covers more than it
+  // a concave face, for which a triangle fan would cover too much
   const std::string face =
       "Coordinate3 { point [ 0 0 0, 10 0 0, 10 10 0, 8 2 0 ] } IndexedFaceSet { coordIndex [ 0, 1, "
       "2, 3, -1 ] }";
@@ -147,7 +147,8 @@ TEST_CASE("groups and strips of Inventor 1 are read") {
   const std::string points =
       "Coordinate3 { point [ 0 0 0, 10 0 0, 10 10 0, 0 10 0, 20 5 0 ] } IndexedTriangleMesh { "
       "coordIndex [ ";
-  // without a swap a strip; with one the last two corners change places: a fan about corner 0
+  // without a swap it is a strip; with one the last two corners are exchanged, which gives a fan
+  // about corner 0
   const auto strip = corners_of(read_nodes_of(points + "0, 1, 3, 2, -1 ] }", header).body);
   CHECK(strip == corners_of(read_nodes_of("Coordinate3 { point [ 0 0 0, 10 0 0, 10 10 0, 0 10 0 ] "
                                           "} IndexedTriangleStripSet { coordIndex [ 0, 1, 3, 2, "

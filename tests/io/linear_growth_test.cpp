@@ -1,5 +1,5 @@
-// What readers allocate, and how often they look whether to stop, grows with the file and not with
-// its square: one construct is written n times, then 4 n times.
+// The memory that readers allocate, and how often they check for a request to stop, grow linearly
+// with the file: one construct is written n times, then 4 n times.
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -15,7 +15,7 @@ static thread_local size_t allocated_bytes = 0;
 
 #if !defined(__SANITIZE_ADDRESS__)
 static constexpr bool counts_allocations = true;
-// the others call this one
+// the other versions call this one
 [[gnu::noinline]] void* operator new(size_t size) {
   allocated_bytes += size;
   if (void* block = std::malloc(size ? size : 1)) return block;
@@ -151,7 +151,7 @@ TEST_CASE("what readers allocate and how often they may stop grow as a file does
     CAPTURE(one.file);
     CAPTURE(one.name);
     const Work few = work_of(one, one.count), many = work_of(one, 4 * one.count);
-    // lists double their memory at some sizes and not at others
+    // lists double their memory at some sizes only
     if (counts_allocations) CHECK(many.bytes <= 6 * few.bytes + (1 << 16));
     CHECK(many.checks <= 5 * few.checks + 100);
   }

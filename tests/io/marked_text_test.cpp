@@ -1,4 +1,4 @@
-// Text files that begin with the mark some editors put before UTF-8.
+// Text files that begin with the byte order mark that some editors write before UTF-8.
 #include "clench/base/text.h"
 #include "clench/io/graspit/eigengrasps.h"
 #include "clench/io/graspit/glove_files.h"

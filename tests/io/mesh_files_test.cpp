@@ -17,7 +17,7 @@ using namespace clench::test;
 
 namespace {
 
-/// Corner by corner, whatever the vertices' numbers.
+/// Compares corner by corner, independent of the vertices' numbers.
 void check_same_surface(const Mesh& a, const Mesh& b) {
   REQUIRE(a.triangles.size() == b.triangles.size());
   int different = 0;
@@ -107,7 +107,7 @@ TEST_CASE("vertices that faces do not share are welded, and counted") {
 }
 
 TEST_CASE("what a file connects into closed surfaces stays as it is, though places are equal") {
-  // two boxes that touch in an edge: welded, four faces would meet there
+  // two boxes that touch in an edge: after welding, four faces would meet there
   const TemporaryFolder folder;
   const Mesh two =
       joined(box(1, 1, 1), moved(box(1, 1, 1), {Eigen::Quaterniond::Identity(), {1, 1, 0}}));
@@ -116,7 +116,7 @@ TEST_CASE("what a file connects into closed surfaces stays as it is, though plac
   CHECK(find_faults(geometry.mesh).none());
   CHECK(geometry.report.welded_vertices == 0);
 
-  // a sliver whose ends lie at one place holds its neighbors together
+  // a sliver whose ends coincide connects its neighbors
   Mesh pinched = ball(0.5);
   const Triangle cut = pinched.triangles[40];
   pinched.vertices[cut[1]] = pinched.vertices[cut[0]];
@@ -138,7 +138,7 @@ TEST_CASE("triangles without area go, and are counted, unless the surface needs 
   CHECK(geometry.report.dropped_triangles == 3);
   CHECK(geometry.report.unused_vertices == 1);
   CHECK(geometry.report.welded_vertices == 2);
-  // one that fills a gap without width stays
+  // a sliver that fills a gap without width is kept
   Mesh seam = whole;
   seam.vertices.push_back(0.5 * (seam.vertices[0] + seam.vertices[2]));
   const Triangle t = seam.triangles[0];  // 0 2 3
@@ -166,7 +166,7 @@ TEST_CASE("triangles that lie on each other go, a fold whole and a double one on
   check_same_surface(geometry.mesh, whole);
   CHECK(geometry.mesh.vertices.size() == 8);
   CHECK(geometry.report.dropped_triangles == 3);
-  // a sheet with two sides is closed as it is
+  // a sheet with two sides is closed without repairs
   const Geometry sheet =
       read_file_of(folder, {"sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n"});
   CHECK(sheet.mesh.triangles.size() == 2);
@@ -268,7 +268,7 @@ TEST_CASE("what a file calls up becomes z, unless its axes are to stay") {
   options.turn_mesh_up = false;
   CHECK(size("Y_UP") == Eigen::Vector3d(1, 2, 4));
   CHECK(notes.size() == 2);
-  // a turn, not a reflection
+  // a rotation, not a reflection
   options.turn_mesh_up = true;
   for (const std::string up : {"X_UP", "Y_UP", "Z_UP"})
     CHECK_FALSE(read_file_of(folder,

@@ -1,5 +1,5 @@
-// Mesh files cut short anywhere, changed at random, and made to do harm: a mesh or an Error that
-// names the file, in no time.
+// Mesh files cut at any position, changed at random, and designed to do harm give a mesh or an
+// Error that names the file, in short time.
 #include <limits>
 
 #include "clench/base/error.h"
@@ -15,7 +15,7 @@ using namespace clench::test;
 
 namespace {
 
-/// returns  was it refused?
+/// returns  true if it was rejected
 bool refused_mesh(const MeshFile& file, const ReadOptions& options = {}) {
   try {
     const Geometry geometry = read_mesh({file.name, file.content, options});
@@ -53,7 +53,7 @@ TEST_CASE("a mesh file cut short anywhere is an Error or a mesh") {
     for (size_t n = 0; n < file.content.size(); n += step, ++all)
       bad += refused_mesh({file.name, file.content.substr(0, n)}, options);
     bad += repaired;
-    // lists without an end that the format counts may lose their last lines unseen
+    // lists whose length is not stated may lose their last lines unnoticed
     CHECK(bad * 2 > all);
     if (file.name != "a.obj") CHECK(bad >= all - 2);
   }

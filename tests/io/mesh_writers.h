@@ -1,5 +1,5 @@
-// One mesh in every format that is read, for tests. Vertices should be 32-bit numbers, which all of
-// the formats hold exactly.
+// Writes one mesh in every readable format, for tests. Vertices should be 32-bit numbers, which all
+// formats store exactly.
 #pragma once
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ inline std::string replaced(std::string text, const std::string& what, const std
 inline Mesh in_32_bits(Mesh mesh) {
   for (auto& p : mesh.vertices)
     for (double& x : p) {
-      // g++ 12 leaves the rounding out where it turns this loop into vector instructions
+      // g++ 12 omits the rounding if it vectorizes this loop
       const volatile float rounded = static_cast<float>(x);
       x = rounded;
     }
@@ -117,7 +117,7 @@ inline std::string gltf_buffer(const Mesh& mesh) {
   return out;
 }
 
-/// `buffer`: how it is named; `node`: what else it says
+/// `buffer`: its uri; `node`: further members of the node
 inline std::string gltf_text(const Mesh& mesh, const std::string& uri,
                              const std::string& node = "") {
   const size_t points = 12 * mesh.vertices.size(), indices = 12 * mesh.triangles.size();
@@ -192,7 +192,7 @@ struct MeshFile {
   std::string name, content;
 };
 
-/// the same mesh in all of them
+/// the same mesh in all formats
 inline std::vector<MeshFile> in_every_format(const Mesh& mesh) {
   return {{"a.obj", obj_text(mesh)},
           {"a.off", off_text(mesh)},

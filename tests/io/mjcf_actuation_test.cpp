@@ -69,7 +69,7 @@ TEST_CASE("the largest effort is the sum of all actuators, within actuatorfrcran
   CHECK(told.warnings.empty());
   const ToldRobot free = three(both);
   CHECK(free.dof("a").max_effort == 2 * 2 + 4);
-  CHECK(free.dof("b").max_effort == 0);  // nothing bounds it
+  CHECK(free.dof("b").max_effort == 0);  // unlimited
   CHECK(three(both, "actuatorfrcrange='-5 4' actuatorfrclimited='false'").dof("b").max_effort == 0);
 }
 
@@ -134,13 +134,13 @@ TEST_CASE("tendons that pull joints in two ratios leave them independent") {
   CHECK(told.dof("a").driven);
   CHECK(told.dof("a").max_effort == 0.5 * 2 + 0.5 * 4);
   CHECK(told.warned("joints 'a', 'b'; tendons 'forward', 'turn'"));
-  // coefficients of joints that an equality ties may cancel
+  // coefficients of joints coupled by an equality may cancel
   const ToldRobot cancels = three(
       "<equality><joint joint1='b' joint2='a' polycoef='0 -1'/></equality><tendon>"
       "<fixed name='t'><joint joint='a' coef='1'/><joint joint='b' coef='1'/><joint joint='c' "
       "coef='1'/></fixed></tendon><actuator><motor tendon='t'/><motor joint='a'/></actuator>");
   CHECK(cancels.robot.dofs.size() == 2);
-  // so does a motor on one of the joints
+  // a motor on one of the joints has the same effect
   const ToldRobot motor =
       three("<tendon>" + fixed("t", 1, 1) +
             "</tendon><actuator><motor tendon='t'/><motor joint='b'/></actuator>");
@@ -204,7 +204,7 @@ TEST_CASE("a tendon of one DOF narrows its range, and says so") {
                  "rad"));
   CHECK(three(tendon, "range='0.5 1'")
             .warned("tendon 't': its range has no value in common with that of joint 'a'"));
-  // joints that an equality ties are one DOF
+  // joints coupled by an equality are one DOF
   const ToldRobot tied = three(
       "<equality><joint joint1='b' joint2='a' polycoef='0.1 1'/></equality>"
       "<tendon>" +

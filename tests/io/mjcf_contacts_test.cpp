@@ -1,4 +1,4 @@
-// Collisions of MJCF files: bits, pairs, exclusions, carriers, and switches of the simulation.
+// Collisions of MJCF files: bits, pairs, exclusions, parent bodies, and switches of the simulation.
 #include "clench/io/mjcf/mjcf.h"
 #include "support/listening.h"
 #include "temporary.h"
@@ -47,7 +47,7 @@ const std::string ball_xml =
 TEST_CASE("a link collides with its parent if that is fixed to the world") {
   CHECK(linked_bodies("").robot.collision_rules.pairs_on == Pairs{{-1, 0}});
   CHECK(linked_bodies("<freejoint/>").robot.collision_rules.pairs_on.empty());
-  // between links that move a carrier never collides, whatever is fixed to it
+  // a moving link and its parent never collide, regardless of bodies fixed to them
   TemporaryFolder folder;
   const ToldRobot told(folder.write("m.xml", R"(<mujoco><worldbody><body name='base'>
 <body name='a'><joint name='j'/><geom size='1'/><body name='b'><geom size='1'/>
@@ -74,7 +74,7 @@ TEST_CASE("pairs collide though nothing else lets them") {
   CHECK(linked_bodies("", "", "<contact><pair geom1='h' geom2='g' friction='1 1 1 1 1'/></contact>")
             .warned("friction and condim of pairs are not used; those of the geoms count: 'h' and "
                     "'g'"));
-  // bodies are one surface each
+  // each body is one surface
   const ToldRobot mixed = linked_bodies("<geom size='1' contype='2' conaffinity='2'/>");
   CHECK(
       mixed.warned("let only some geoms of these bodies collide; here all of them do: 'base' and "

@@ -1,4 +1,4 @@
-// Efforts that the drives of MJCF robots exert: signs, one-sided ranges, kinds of actuators, switches.
+// Efforts of the drives of MJCF robots: signs, one-sided ranges, kinds of actuators, switches.
 #include <cmath>
 
 #include "clench/io/mjcf/mjcf.h"
@@ -56,7 +56,8 @@ TEST_CASE("a motor on a tendon pulls with the sign of its coefficients") {
   CHECK(opens.dofs.size() == 1);
   CHECK(at_rest(opens) == EffortRange{-100, 0});
   CHECK(at_rest(two(tendon(0.5, 1, motor)).robot) == EffortRange{0, 50 * (0.5 + 1 * 2)});
-  const RobotSpec against = two(tendon(1, -2, motor)).robot;  // b goes twice as far the other way
+  // b moves twice as far in the opposite direction
+  const RobotSpec against = two(tendon(1, -2, motor)).robot;
   CHECK(at_rest(against) == EffortRange{0, 50 + 4 * 50});
   // a second motor on a joint leaves both independent
   const RobotSpec apart = two(tendon(-1, 2, motor + "<motor joint='a' ctrlrange='0 3'/>")).robot;
@@ -83,7 +84,7 @@ TEST_CASE("muscles only pull, with a peak force where one is given") {
   const EffortRange pulls = at_rest(actuated(muscle + "gear='-1' force='10'/>").robot);
   CHECK(pulls.low == 0);
   CHECK(pulls.high > 10);
-  CHECK(pulls.high < 10.5);  // passive, where it is longest
+  CHECK(pulls.high < 10.5);  // passive, at its largest length
   CHECK(at_rest(actuated("<general joint='a' gaintype='muscle' biastype='muscle' dyntype='muscle' "
                          "gainprm='0.75 1.05 8 200 0.5 1.6 1.5 0 1.2' ctrlrange='0 0.5'/>")
                     .robot) == EffortRange{-4, 0});
@@ -141,7 +142,7 @@ TEST_CASE("actuators that an option switches off drive nothing, which is reporte
   CHECK(one.dof("b").driven);
   CHECK(one.warned("actuatorgroupdisable switches actuators off; they drive nothing: 'x'"));
   CHECK(one.warnings.size() == 1);
-  // what else an option says is not used for a robot alone
+  // other settings of an option are not used for a robot alone
   const ToldRobot more = two(
       motors, "", "<option timestep='0.01'><flag actuation='disable' gravity='disable'/></option>");
   CHECK(more.warned("of <option>, here and further on, not used: timestep"));

@@ -1,4 +1,4 @@
-// Small MJCF files that ask for much work, and how much they may ask for.
+// Limits on the work that small MJCF files may request.
 #include "clench/base/error.h"
 #include "temporary.h"
 #include "told_robot.h"

@@ -9,7 +9,7 @@ using namespace clench::test;
 
 namespace {
 
-/// A base and a link `a`, which hold these geoms.
+/// A base and a link `a`, which contain these geoms.
 ToldRobot touching_links(const std::string& base, const std::string& a,
                          const std::string& defaults = "") {
   const TemporaryFolder folder;
@@ -38,7 +38,7 @@ TEST_CASE("links of a robot have the friction that the file gives their geoms") 
   CHECK(all.body("base").material == "friction 0.4");
   CHECK(all.body("a").material == "friction 0.4 frictionless");
   CHECK_FALSE(all.noted("count as plastic"));
-  // geoms that collide with nothing do not count
+  // geoms that do not collide are ignored
   const std::string ghost = "friction='3' contype='0' conaffinity='0'";
   CHECK(touching_links(sphere_xml(""), sphere_xml("") + sphere_xml(ghost)).robot.frictions.empty());
 }
@@ -50,7 +50,7 @@ TEST_CASE("a link whose geoms differ in friction has the prevailing one, with a 
   CHECK(
       told.warned("m.xml: bodies whose geoms differ in friction, of which that of the highest "
                   "priority, then the largest counts for all: "));
-  // a geom that gives none has MuJoCo's 1
+  // the default friction of MuJoCo is 1
   const ToldRobot part =
       touching_links(sphere_xml(""), sphere_xml("") + sphere_xml("friction='0.2'"));
   CHECK(part.body("a").material == "friction 1");

@@ -1,4 +1,4 @@
-// Scenes of MJCF as worlds.
+// MJCF scenes as worlds.
 #include "clench/base/error.h"
 #include "clench/base/random.h"
 #include "clench/io/write_mjcf.h"
@@ -175,7 +175,7 @@ TEST_CASE("damping, friction and armature of joints and actuators are kept") {
   CHECK(servo.dof == 0);
   CHECK(servo.gear == 2);
   CHECK(servo.gain == 5);
-  // of the servo, the damper and the general one together; gears count squared
+  // sum of the servo, the damper and the general actuator; gears enter squared
   CHECK(robot.dofs[0].kp == 5 * 4 + 2);
   CHECK(robot.dofs[0].kd == 0.5 * 4 + 3 + 3);
   CHECK(servo.bias == std::array{0.0, -5.0, -0.5});
@@ -188,7 +188,7 @@ TEST_CASE("damping, friction and armature of joints and actuators are kept") {
   CHECK(robot.actuators[4].law_known);
   CHECK(robot.actuators[4].gain == 0);
   CHECK(robot.actuators[4].gain_slopes[1] < 0);
-  // one warning a kind
+  // one warning per kind
   CHECK(std::ranges::count_if(told.warnings, [](const std::string& s) {
           return s.find("<damper>: motors of a run do not follow its gain") != std::string::npos;
         }) == 1);
@@ -249,8 +249,8 @@ TEST_CASE("in keyframes balls are three turns and followers follow") {
   CHECK(told.warned("joint 'q' follows 'p', and is at 0.3 rather than at 1; it follows"));
 }
 
-/// The rotation of a body that hangs on the base by one ball, at the keyframe's values of its three
-/// hinges.
+/// The rotation of a body attached to the base by a ball joint, for the keyframe's values of its
+/// three hinges.
 static Eigen::Matrix3d ball_rotation(const KeyframeSpec& key, const RobotSpec& robot) {
   const LinkSpec& link = robot.links.at(0);
   REQUIRE(link.joints.size() == 3);
@@ -260,7 +260,7 @@ static Eigen::Matrix3d ball_rotation(const KeyframeSpec& key, const RobotSpec& r
   return (X * link.X_JL).rotation.toRotationMatrix();
 }
 
-/// All 24 rotations of a cube, those that turn its middle hinge by a right angle among them.
+/// All 24 rotations of a cube, including those that turn its middle hinge by a right angle.
 static std::vector<Eigen::Quaterniond> cube_rotations() {
   std::vector<Eigen::Quaterniond> out;
   for (int i = 0; i < 3; ++i)
@@ -278,7 +278,7 @@ static std::vector<Eigen::Quaterniond> cube_rotations() {
 TEST_CASE("a ball in a keyframe turns its body as its quaternion says, at gimbal lock too") {
   std::vector<Eigen::Quaterniond> turns = cube_rotations();
   REQUIRE(turns.size() == 24);
-  // w x y z; as a person types them, some far from unit length and near to gimbal lock
+  // w x y z; as written by people, some far from unit length and near gimbal lock
   for (const auto& q : {std::array{0.5, 0.5, 0.5, 0.5},
                         {0.5, -0.5, 0.5, -0.5},
                         {0.5, 0.5, -0.5, -0.5},
@@ -328,7 +328,7 @@ TEST_CASE("an equality of one joint holds it where it says") {
   CHECK(robot.dofs[0].default_value == 0.3);
   CHECK(told.noted("scene.xml:1: joint 'a' may only stand at 0.3 rad, as the equality says"));
   CHECK(!told.warned("ctrlrange"));
-  // it counts from where the model stands at first
+  // relative to the initial configuration of the model
   const ToldWorld from(
       "<body name='s'><geom size='1'/><body><joint name='a' type='slide' ref='2' range='0 9'/>"
       "<geom size='1'/></body></body>",
@@ -375,7 +375,7 @@ TEST_CASE("a scene's bits are kept, and excluded pairs are listed") {
       "<pair geom1='x' geom2='y'/></contact>");
   // the mug with one part of the arm
   CHECK(told.world.never_meet.size() == 1);
-  // of the obstacle, the arm's base and link, mug and ghost
+  // obstacle, the arm's base and link, mug and ghost
   REQUIRE(told.world.collision_bits.size() == 5);
   int fixed = 0, other = 0;
   for (const auto& [ref, bits] : told.world.collision_bits) {
@@ -398,7 +398,7 @@ TEST_CASE("what a scene holds and a world does not is told, one warning a kind o
   CHECK(told.warned("geom: no obstacle is made of a hfield here; it is not used"));
   CHECK(ToldWorld("<body name='b'><geom type='plane' size='1 1 1'/><geom size='1'/></body>")
             .warned("geom: a plane is no part of a body here; it is not used"));
-  // what stands there is named
+  // the error names the contents of the file
   CHECK(failure("<geom type='hfield' hfield='h'/>") ==
         "scene.xml: expected bodies or geoms in <worldbody>, got only geoms that are not used, of "
         "type hfield");
@@ -451,7 +451,7 @@ TEST_CASE("settings of MuJoCo's solver are reported unless they are those that a
   CHECK(ours.warnings.size() == 1);
   CHECK(ours.warned("of <size>, here and further on, not used: nuserdata"));
   CHECK(ours.world.contact_threshold == 0.0002);
-  // stiff for another time step
+  // stiffness for another time step
   const auto other = told("0.001", stiff, "cone='pyramidal' impratio='1' integrator='RK4'");
   CHECK(other.warned("not used: margin, solimp, solref"));
   CHECK(other.warned("not used: cone, impratio, integrator"));

@@ -18,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// A model with this in the body 'b' of its base 'a'.
+/// A model with this text in the body 'b' of its base 'a'.
 ToldRobot model(const std::string& in_b, const std::string& beside = "") {
   TemporaryFolder folder;
   return ToldRobot(folder.write("m.xml", "<mujoco model='m'>" + beside +
@@ -36,7 +36,7 @@ TEST_CASE("a model of many elements is read whole") {
   CHECK(hand.robot.base.name == "small_hand_palm");
   CHECK(hand.dofs() ==
         std::vector<std::string>{"index_mcp", "middle_mcp", "thumb_flex", "thumb_swing"});
-  // defaults of the class, of its parent, of the body's class, and the element's own
+  // defaults of the class, of its parent, of the body's class, and the element's attributes
   CHECK(hand.joint("index_mcp").coulomb == 0.02);
   CHECK(hand.joint("index_mcp").viscous == 0.05);
   CHECK(hand.joint("thumb_swing").coulomb == 0);
@@ -72,7 +72,7 @@ TEST_CASE("an equality ties a joint to another, counted from where both stand at
   const ToldRobot from(
       model("<joint name='p' range='-9 9' ref='1'/><joint name='q' range='-9 9' ref='2'/>",
             radian + "<equality><joint joint1='q' joint2='p' polycoef='0.5 3'/></equality>"));
-  // q = 2 + 0.5 + 3 (p - 1), and the pose counts from q = 2
+  // q = 2 + 0.5 + 3 (p - 1), and the pose is relative to q = 2
   CHECK(from.joint("q").ratio == 3);
   CHECK(constant_turn(from.joint("q")) == doctest::Approx(-0.5 - 2));
 }
@@ -107,7 +107,7 @@ TEST_CASE("actuators limit their joints and say what drives them") {
   CHECK(dof("thumb_flex").max_effort == 2);
   CHECK(hand.joint("middle_mcp").min == 0);
   CHECK(hand.joint("middle_mcp").max == 1.2);
-  // nothing drives the swing, so it does not close
+  // no actuator drives the swing, so it does not close
   CHECK(dof("thumb_swing").default_velocity == 0);
   CHECK(hand.noted("joints that no actuator drives do not close: 'thumb_swing'"));
 }
@@ -122,7 +122,7 @@ TEST_CASE("excluded pairs never collide, nor do pairs whose bits differ") {
   const ToldRobot bits(folder.write("m.xml", R"(<mujoco model="m"><worldbody><body name="a">
 <geom size="1" contype="2" conaffinity="1"/><body name="b"><geom size="1" contype="2" conaffinity="1"/></body>
 <body name="c"><geom size="1"/></body></body></worldbody></mujoco>)"));
-  // a and b share no bit, and both meet c
+  // a and b share no bit, and both share one with c
   CHECK(bits.robot.collision_rules.pairs_off.size() == 1);
   CHECK(bits.noted("1 pair of links never collides, as contype and conaffinity say"));
 }
@@ -179,7 +179,7 @@ TEST_CASE("a robot without masses weighs what its geoms do") {
   const BodySpec& body = told.body("b");
   CHECK(body.mass == doctest::Approx(8));
   CHECK(body.com->z() == doctest::Approx(0.5));
-  // two cubes of 4 kg, half a meter from the center: m a^2/6 each about their own, and m d^2
+  // two cubes of 4 kg, half a meter from the center: m a^2/6 each about their centers, plus m d^2
   CHECK((*body.inertia_per_mass)(0, 0) == doctest::Approx(0.04 / 6 + 0.25));
   CHECK((*body.inertia_per_mass)(2, 2) == doctest::Approx(0.04 / 6));
 }
@@ -204,7 +204,7 @@ TEST_CASE("the body with the most joints is the robot, things that move freely b
 </worldbody></mujoco>)"));
   CHECK(told.robot.base.name == "m_hand");
   CHECK(told.warned("m.xml:2: body 'ball' moves freely beside the robot; it is not read"));
-  // several bodies, or one with joints of its own, stand in the world's frame
+  // several bodies, or one with joints, are attached to the world's frame
   const ToldRobot two(folder.write("m.xml", R"(<mujoco model="m"><worldbody>
 <body name="left" pos="1 0 0"><joint name="j" type="slide" range="0 1"/></body><body name="right"/>
 </worldbody></mujoco>)"));
@@ -259,7 +259,7 @@ TEST_CASE("a motor or tendon of a joint that the robot lacks is told, and the ro
   CHECK(beside.dofs().size() == 2);
   CHECK(beside.warned("joint: joint 'hinge' is of a body that is not read; this is not used"));
   CHECK(read("", "<equality><joint joint1='p' joint2='hinge'/></equality>").dofs().size() == 2);
-  // a tendon that has lost a joint ties no others
+  // a tendon that has lost a joint couples no others
   const ToldRobot tendon =
       read("",
            "<tendon><fixed name='t'><joint joint='p' coef='1'/><joint joint='q' "
@@ -277,7 +277,7 @@ TEST_CASE("a range of two zeros means none, as it undoes that of a class") {
   CHECK(hinge.joint("j").max == doctest::Approx(2 * pi));
   CHECK(hinge.noted("joint 'j' has no limits"));
   CHECK(model("<joint name='j' type='ball' range='0 0'/>").dofs().size() == 3);
-  // even where a range alone would be an error
+  // even if a range alone would be an error
   CHECK(model("<joint name='j' range='0 0'/>", "<compiler autolimits='false'/>").dofs().size() ==
         1);
   const ToldRobot locked = model("<joint name='j' range='0 0' limited='true'/>");
@@ -299,7 +299,7 @@ TEST_CASE("an outermost class by another name is the global one, which is told")
   CHECK(
       told.warned("m.xml:1: default: the outermost class is called main; 'robot' is taken for "
                   "it"));
-  // it may be named
+  // it may have a name
   CHECK(model("<geom class='robot' size='1'/>", "<default class='robot'/><default class='robot'/>")
             .body("b")
             .shape);

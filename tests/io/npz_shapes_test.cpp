@@ -1,4 +1,4 @@
-// Arrays of NumPy of all shapes, types and orders, stored and compressed.
+// NumPy arrays of all shapes, types and orders, stored and compressed.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ using namespace clench::test;
 
 namespace {
 
-/// An archive of one array with this head and these bytes.
+/// An archive of one array with this header and these bytes.
 std::string archive(const std::string& type, bool fortran, const std::string& shape,
                     const std::string& body, const std::string& name = "a") {
   std::string head = fmt::format("{{'descr': '{}', 'fortran_order': {}, 'shape': {}, }}", type,
@@ -81,8 +81,8 @@ std::vector<std::vector<size_t>> shapes() {
   return out;
 }
 
-// np.savez_compressed(poses=float16 of 2 x 7), as Python 3.11 wrote it with zipfile and zlib:
-// force_zip64, sizes in the directory only
+// np.savez_compressed(poses=float16 of 2 x 7), as written by Python 3.11 with zipfile and zlib:
+// force_zip64, sizes only in the directory
 constexpr const char* packed_poses =
     "504b03042d0000000800000021008dbeaabdffffffffffffffff09001400706f7365732e6e7079010010009c"
     "000000000000005a000000000000009bec17ea1b10c9c850c650ad9e925a9c5ca46ea5a06e9366a4aea3a09e"
@@ -100,14 +100,14 @@ std::string of_hex(std::string_view hex) {
 
 size_t entry_of(const std::string& archive) { return archive.rfind("PK\x01\x02"); }
 
-/// The archive with a number in the directory's entry of its last file.
+/// The archive with a number replaced in the directory's entry of its last file.
 std::string with_field(std::string archive, size_t field, uint32_t x, int bytes = 4) {
   const size_t at = entry_of(archive) + field;
   for (int i = 0; i < bytes; ++i, x >>= 8) archive[at + i] = static_cast<char>(x & 255);
   return archive;
 }
 
-// places in an entry of the directory
+// offsets in an entry of the directory
 constexpr size_t method_field = 10, flags_field = 8, checksum_field = 16, packed_field = 20,
                  size_field = 24;
 
@@ -155,7 +155,7 @@ TEST_CASE("arrays in the order of Fortran are those in the order of C") {
     CAPTURE(shape_text(shape));
     size_t count = 1;
     for (const size_t n : shape) count *= n;
-    // each number tells its indices
+    // each number encodes its indices
     std::vector<double> in_c(count), in_fortran(count);
     for (size_t i = 0; i < count; ++i) {
       size_t rest = i, place = 0, stride = count;
@@ -242,7 +242,7 @@ TEST_CASE("numbers of 16 bits have the values of IEEE 754") {
   CHECK(known.numbers ==
         std::vector<double>{1, -2, 65504, 0x1p-14, 0x1p-24, 1023 * 0x1p-24, 0.333251953125, 0});
   CHECK(std::signbit(known.numbers[7]));
-  // all finite ones rise, and their negatives mirror them
+  // all finite values are in ascending order, and their negatives mirror them
   std::vector<uint16_t> up, down;
   for (uint16_t x = 0; x < 0x7C00; ++x) up.push_back(x), down.push_back(x | 0x8000);
   const auto rising = half_array(up).numbers, falling = half_array(down).numbers;
@@ -282,14 +282,14 @@ TEST_CASE("broken compressed arrays are refused in a sentence") {
   for (const int size : {0, 155, 157})
     refuse(with_field(good, size_field, static_cast<uint32_t>(size)),
            fmt::format(fmt::runtime(wrong), size));
-  // the data ends early, and bytes follow it
+  // the data ends early, or is followed by further bytes
   refuse(with_field(good, packed_field, 0x59), fmt::format(fmt::runtime(wrong), 156));
   refuse(with_field(good, packed_field, 0x5B), fmt::format(fmt::runtime(wrong), 156));
   refuse(with_field(good, checksum_field, 1), "a.npz: poses: the array's checksum is wrong");
   refuse(with_field(good, flags_field, 1, 2), "a.npz: poses: encrypted arrays are not read");
   refuse(with_field(good, method_field, 0, 2),
          "a.npz: poses: a stored array of 156 bytes fills 90");
-  // any other byte of the data is noticed
+  // any other change of a byte is detected
   const size_t from = good.find("poses.npy") + 9 + 20;
   for (size_t at = from; at < from + 90; ++at) {
     std::string spoilt = good;

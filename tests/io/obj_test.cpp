@@ -45,7 +45,7 @@ TEST_CASE("the faces of an OBJ may count backwards, stand first, and go on in th
 }
 
 TEST_CASE("an OBJ face that is not convex is cut along its own inside") {
-  // an arrowhead: area 1, and a fan from its first corner would cover 3
+  // an arrowhead: area 1, whereas a fan from its first corner would cover 3
   const Mesh arrow = read_obj_text("v 0 0 0\nv 2 1 0\nv 0 2 0\nv 1 1 0\nf 1 2 3 4\n");
   CHECK(arrow.triangles.size() == 2);
   CHECK(arrow.area() == doctest::Approx(1));

@@ -53,19 +53,19 @@ TEST_CASE("an object of less than a millimeter or more than 3 m is suspicious") 
 }
 
 TEST_CASE("a mass is suspicious when no metal is a tenth as dense, or air is denser") {
-  BodySpec body = box_of(0.1);  // of 1/6 litre
+  BodySpec body = box_of(0.1);  // of 1/6 liter
   body.mass_from = Origin::file;
   for (const double mass : {0.0002, 0.3, 3.8, 40.0}) {
     body.mass = mass;
     CHECK(suspicions_of(body).empty());
   }
-  body.mass = 300;  // grams taken for kilograms
+  body.mass = 300;  // grams read as kilograms
   const Sentences dense = {"a.obj: its mass of 300 kg makes 1.8e+06 kg/m^3: is its unit right?"};
   CHECK(suspicions_of(body) == dense);
   body.mass = 0.0001;
   CHECK(suspicions_of(body) ==
         Sentences{"a.obj: its mass of 0.0001 kg makes 0.6 kg/m^3: is its unit right?"});
-  // of a mass that nobody gave, and of a surface that bounds nothing, nothing is said
+  // nothing is reported about an assumed mass, or a surface that bounds nothing
   body.mass_from = Origin::assumed;
   CHECK(suspicions_of(body).empty());
   LinkSpec link;

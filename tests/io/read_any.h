@@ -1,4 +1,4 @@
-// A file of any kind read, as its name and its beginning say.
+// Reads a file of any kind, which its name and its first characters determine.
 #pragma once
 #include "clench/io/grasp_lines.h"
 #include "clench/io/graspit/eigengrasps.h"

@@ -1,5 +1,5 @@
-// Every file of tests/data/repaired/ is read, and tells the sentences that stand beside it, each
-// line one; strictly read it is refused with the first.
+// Every file of tests/data/repaired/ is read, and reports the messages in the file next to it, one
+// per line; with strict options it is rejected with the first.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ TEST_CASE("what a file has wrong and can be put right is told by file and line, 
     } catch (const Error& error) {
       thrown = error.what();
     }
-    // where something else is not used or suspicious, that may be told before
+    // messages about unused or suspicious contents may come before
     CHECK(!thrown.empty());
   }
 }

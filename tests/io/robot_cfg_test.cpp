@@ -45,7 +45,7 @@ TEST_CASE("the two-finger pincher is read as it is written") {
   REQUIRE(r.dofs.size() == 2);
   REQUIRE(r.links.size() == 2);
   CHECK(link_of(r, 1, 0).body.name == "pincher_chain1_link0");
-  for (const LinkSpec& link : r.links) {  // the second one's last joint is left out in the file
+  for (const LinkSpec& link : r.links) {  // the file omits the last joint of the second link
     CHECK(link.parent == -1);
     CHECK(link.joints.size() == 1);
   }
@@ -119,9 +119,9 @@ TEST_CASE("a DOF that turns and slides joints counts in the unit of its first") 
   cfg.joints = "2\n1\n";
   cfg.links = "Universal\nbox.iv 1\n";
   cfg.joint_lines = "d0 0 10 0 -10 90\n0 d0*5 0 0 -100 100\n";
-  CHECK(joint_of(cfg.read(), 0, 1).ratio == doctest::Approx(0.005));  // 5 mm a radian
+  CHECK(joint_of(cfg.read(), 0, 1).ratio == doctest::Approx(0.005));  // 5 mm per radian
   cfg.joint_lines = "0 d0 10 0 -10 90\nd0*0.1 0 0 0 -1000 1000\n";
-  CHECK(joint_of(cfg.read(), 0, 1).ratio == doctest::Approx(100));  // 0.1 rad a millimeter
+  CHECK(joint_of(cfg.read(), 0, 1).ratio == doctest::Approx(100));  // 0.1 rad per millimeter
 }
 
 TEST_CASE("a DOF that is told to close slides at 5 cm/s, whatever the ratio of its joints") {

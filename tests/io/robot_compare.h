@@ -1,4 +1,4 @@
-// Two robots compared by where their surfaces stand.
+// Compares two robots by the positions of their surfaces.
 #pragma once
 #include <doctest/doctest.h>
 

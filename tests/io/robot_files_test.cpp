@@ -10,7 +10,7 @@ using namespace clench::test;
 
 namespace {
 
-/// A hand of one DOF and one link, whose file names others.
+/// A hand with one DOF and one link, whose file names others.
 class Hand {
  public:
   Hand() { folder.write("iv/box.iv", "#Inventor V2.1 ascii\nCube { }\n"); }

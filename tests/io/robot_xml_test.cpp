@@ -12,7 +12,7 @@ using clench::test::Warnings;
 
 static constexpr double degree = std::numbers::pi / 180;
 
-/// A robot of the elements given, with a box for its palm.
+/// A robot with the given elements, and a box as its palm.
 static RobotSpec read_xml_robot(const std::string& inside, const ReadOptions& options = {},
                                 const std::string& head = "type=\"Barrett\" DBName=\"Thing\"") {
   const TemporaryFolder folder;

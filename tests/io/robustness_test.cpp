@@ -1,5 +1,5 @@
-// Files cut short anywhere and files with bytes changed at random: a spec or an Error, never a
-// crash or a hang.
+// Files cut at any position, and files with bytes changed at random, give a spec or an Error, never
+// a crash or a hang.
 #include "clench/base/error.h"
 #include "clench/base/random.h"
 #include "clench/base/text.h"
@@ -102,7 +102,7 @@ const test::Oddities odd_texts = {
      "-7", "PER_VERTEX", "OVERALL",     "CONVEX", "100000", ",",     "T",    "\n",   "d0",
      "r"}};
 
-/// The folder with the files that others name, and a reader for a text of each format.
+/// The folder with the files that others name, and a reader for texts of each format.
 class TextBench {
  public:
   TextBench() {
@@ -110,7 +110,7 @@ class TextBench {
       folder_.write(name, "#Inventor V2.1 ascii\nCube { }\n");
     folder_.write("hand.cfg", cfg_robot);
   }
-  /// returns  was it refused?   fails the test when the sentence does not name the file
+  /// returns  true if it was rejected   the test fails if the message does not name the file
   bool refused(const std::string& name, const std::string& text) {
     const fs::path file = folder_.write(name, text);
     try {
@@ -135,7 +135,7 @@ void cut_text_everywhere(const std::string& name, const std::string& text, size_
   TextBench bench;
   int refused = 0;
   for (size_t n = 0; n <= text.size(); n += step) refused += bench.refused(name, text.substr(0, n));
-  // most cuts fall within something
+  // most cuts are inside a token
   CHECK(refused * 2 > static_cast<int>(text.size() / step));
 }
 

@@ -1,5 +1,4 @@
-// The text models of the original, where they are at hand, against what the original measured on
-// them.
+// Text models of GraspIt!, if installed, compared with values measured by GraspIt!
 #include <algorithm>
 #include <map>
 
@@ -87,8 +86,8 @@ TEST_CASE("triangles, bounds, area, mass and material are those of the original"
     const BodySpec body = read_body(text_file(file));
     REQUIRE(body.shape);
     CHECK(body.shape->mesh().triangles.size() == measured.at("triangles").get<size_t>());
-    // the original multiplies 32-bit coordinates by matrices of doubles or of 32 bits: a unit in
-    // the last place of a table's 1300 mm is 1e-4 mm
+    // GraspIt! multiplies 32-bit coordinates by matrices of doubles or of 32 bits: a unit in the
+    // last place of a table's 1300 mm is 1e-4 mm
     const double size = body.shape->bounds().high.cwiseAbs().maxCoeff() * 1000;
     const double rounding =
         1e-9 + 2.5e-7 * std::max(size, body.shape->bounds().low.cwiseAbs().maxCoeff() * 1000);
@@ -98,7 +97,7 @@ TEST_CASE("triangles, bounds, area, mass and material are those of the original"
     CHECK((body.shape->bounds().high * 1000 - vector(measured.at("bbox_local_max")))
               .cwiseAbs()
               .maxCoeff() < rounding);
-    // one face of one arm link is crooked, and cut along another diagonal: 2e-8
+    // one face of one arm link is not flat, and cut along another diagonal: 2e-8
     CHECK(body.shape->mesh().area() * 1e6 ==
           doctest::Approx(measured.at("mesh_area_mm2").get<double>()).epsilon(1e-7));
     CHECK(body.material == measured.at("material").get<std::string>());

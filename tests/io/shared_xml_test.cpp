@@ -1,5 +1,4 @@
-// The XML models of the original's last generation, where they are at hand, against its text
-// models.
+// XML models of the last GraspIt! generation, if installed, compared with its text models.
 #include <algorithm>
 
 #include "clench/base/error.h"
@@ -14,7 +13,7 @@ namespace fs = std::filesystem;
 static fs::path text_root() { return test::shared() / "data/graspit"; }
 static fs::path xml_root() { return test::shared() / "data/graspit-xml"; }
 
-/// Files whose outermost element is of one name, or of no name that others have.
+/// Files whose root element has this name.
 static std::vector<fs::path> files_of(const std::string& root_name) {
   std::vector<fs::path> out;
   for (const auto& entry : fs::recursive_directory_iterator(xml_root())) {
@@ -84,7 +83,7 @@ TEST_CASE("hands that exist in both generations are the same in both") {
         const JointSpec &p = a.joints[j], &q = b.joints[j];
         CHECK(std::tie(p.kind, p.dof, p.ratio, p.min, p.max) ==
               std::tie(q.kind, q.dof, q.ratio, q.min, q.max));
-        // one file says where a finger begins by a rotation, the other by a matrix
+        // one file gives the start of a finger by a rotation, the other by a matrix
         if (a.parent < 0 && j == 0)
           CHECK((p.X_PJ.position - q.X_PJ.position).norm() < 1e-12);
         else

@@ -1,6 +1,5 @@
-// The small files around hands and planners: bad ones are refused with the sentence that stands
-// beside them; cut short anywhere or changed at random they are values or Errors that name the
-// file.
+// Small files of hands and planners: bad ones are rejected with the message in the file next to
+// them; files cut at any position or changed at random give values or Errors that name the file.
 #include <algorithm>
 
 #include "clench/base/error.h"
@@ -24,7 +23,7 @@ struct Format {
   const char* folder;  // of tests/data/bad
   const char* ending;
   void (*read)(const fs::path&);
-  std::string sound;  // a file of it
+  std::string sound;  // a file in it
 };
 
 const std::string edge_lines = "2\n1 0 0 0 0 0\n0 0 0 0 0 1.64\n";
@@ -62,8 +61,8 @@ const Format formats[] = {
      "1\n3\n12.5\n1\n10 20 30\n1\n0 -1 2\n1\n0.1 0.2 0.3\n0 0 0 1\n1 2 3\n"},
 };
 
-/// fails the test when the sentence does not name the file
-/// returns  was it refused?
+/// the test fails if the message does not name the file
+/// returns  true if it was rejected
 bool refused_text(const TemporaryFolder& folder, const Format& format, const std::string& text) {
   const std::string name = std::string("a.") + format.ending;
   try {
@@ -108,7 +107,7 @@ TEST_CASE("malformed small files are told by file, line, expected and got") {
 
 TEST_CASE("a small file that does not exist, or is a folder, is told by its name") {
   for (const Format& format : formats) {
-    if (format.folder == std::string("primitives")) continue;  // its ending is looked at first
+    if (format.folder == std::string("primitives")) continue;  // its ending is checked first
     CHECK_THROWS_WITH_AS(format.read("tests/none.egr"), "no such file: tests/none.egr", Error);
     CHECK_THROWS_WITH_AS(format.read("tests/data"), "tests/data: expected a file, got a folder",
                          Error);

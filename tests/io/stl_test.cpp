@@ -95,7 +95,7 @@ TEST_CASE("text around the facets of an ASCII STL file may be missing or longer 
   for (const Case& c : cases) {
     CAPTURE(c.text);
     Warnings warnings;
-    // a lone triangle is no solid: of that nothing is said here
+    // a single triangle is not a solid, which is not reported here
     CHECK(read_stl_text(c.text, warnings.options()).shape->mesh().triangles.size() == c.triangles);
     CHECK(warnings.list == c.warnings);
   }

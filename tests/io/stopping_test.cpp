@@ -1,4 +1,4 @@
-// Readers check often whether they are to stop, and stop.
+// Readers check often for requests to stop, and stop.
 #include <fmt/format.h>
 
 #include "clench/base/watched.h"
@@ -50,7 +50,8 @@ std::string inventor_text() {
   return text + "] } }\n";
 }
 
-// returns  checks of the reading, which stops at the first, in the middle, and at the last
+// Stops the reading at the first, the middle and the last check.   returns  number of checks of a
+// complete reading
 template <class Read>
 uint64_t checks_of(Read read) {
   uint64_t checks = 0;
@@ -84,7 +85,7 @@ TEST_CASE("readers of text check every few thousand words") {
     CAPTURE(name);
     const TemporaryFolder folder;
     const auto path = folder.write(name, text);
-    // a word has five letters or so
+    // a word has about five letters
     CHECK(checks_of([&] { read_geometry(path, {}); }) >= text.size() / 5 / 8192);
   }
 }

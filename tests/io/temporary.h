@@ -1,4 +1,4 @@
-// What tests of readers need: a folder for files, and options that keep what is told.
+// Helpers for tests of readers: a folder for files, and options that store diagnostics.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace clench::test {
 
-/// Options that keep the warnings.
+/// Options that store the warnings.
 struct Warnings {
   std::vector<std::string> list;
   ReadOptions options() {

@@ -42,7 +42,7 @@ std::string bytes_of_base64(const std::string& text) {
   return out;
 }
 
-// two triangles of one size; the first lies on the left half of the image, the second on the right
+// two triangles of equal size; the first is on the left half of the image, the second on the right
 const std::string textured_obj =
     "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n"
     "vt 0.05 0.95\nvt 0.2 0.95\nvt 0.05 0.7\nvt 0.8 0.9\nvt 0.9 0.9\nvt 0.9 0.6\n"
@@ -73,7 +73,7 @@ TEST_CASE("files that are not images, truncated or damaged are rejected by name"
   for (const std::string& whole : {bytes_of_base64(png_base64), bytes_of_base64(jpeg_base64)})
     for (size_t length = 4; length + 12 < whole.size(); ++length)
       CHECK_THROWS_AS(decode_image(whole.substr(0, length), "a"), Error);
-  // an image whose head promises more than it may
+  // an image whose header states a size above the limit
   std::string huge = bytes_of_base64(png_base64);
   huge[16] = huge[20] = 0x10;
   CHECK_THROWS_AS(decode_image(huge, "a.png"), Error);
@@ -154,11 +154,11 @@ TEST_CASE("triangles of a glTF file have the colors of their base color texture"
   CHECK(looks.color == Eigen::Vector3f(0, 1, 0));
 }
 
-// --- places in images ---
+// --- coordinates in images ---
 
 namespace {
 
-// u and v of a corner by the corner's place, which is unique in these meshes
+// u and v of a corner by its position, which is unique in these meshes
 Eigen::Vector2f place_at(const BodySpec& body, const Eigen::Vector3d& p) {
   const Mesh& mesh = body.shape->mesh();
   for (size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -173,7 +173,7 @@ bool is_at(const Eigen::Vector2f& uv, float u, float v) {
   return (uv - Eigen::Vector2f(u, v)).norm() < 1e-5f;
 }
 
-// a closed tetrahedron in meters; vt i lies at vertex i
+// a closed tetrahedron in meters; vt i belongs to vertex i
 std::string textured_tetrahedron(bool inside_out) {
   std::string text =
       "mtllib a.mtl\nusemtl wood\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
@@ -228,7 +228,7 @@ TEST_CASE("triangles of an OBJ file keep their places in its image") {
     REQUIRE(body.appearance.skin->textures.size() == 1);
     CHECK(body.appearance.skin->textures[0].image->width == 4);
     CHECK(body.appearance.skin->textures[0].wrap_u == Wrap::repeat);
-    CHECK(is_at(place_at(body, {0, 0, 0}), 0.1f, 0.8f));  // v of OBJ counts upward
+    CHECK(is_at(place_at(body, {0, 0, 0}), 0.1f, 0.8f));  // v of OBJ points up
     CHECK(is_at(place_at(body, {1, 0, 0}), 0.9f, 0.8f));
     CHECK(is_at(place_at(body, {0, 1, 0}), 0.5f, 0.2f));
     CHECK(is_at(place_at(body, {0, 0, 1}), 0.25f, 0.5f));
@@ -239,7 +239,7 @@ TEST_CASE("triangles of an OBJ file keep their places in its image") {
   CHECK(texture.wrap_u == Wrap::clamp);
   CHECK(texture.tint == Eigen::Vector3f(0.5f, 1, 1));
   CHECK(is_at(place_at(body, {0, 0, 0}), 0.3f, 0.2f));
-  // a color of the user's own takes the place of the image
+  // a color set by the user replaces the image
   CHECK_FALSE(
       read_body(folder.write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).appearance.skin);
 }
@@ -280,7 +280,7 @@ TEST_CASE("a glTF file places its image by its sampler and its transform") {
   CHECK(texture.wrap_u == Wrap::mirror);
   CHECK(texture.wrap_v == Wrap::clamp);
   CHECK(texture.tint == Eigen::Vector3f(0.5f, 1, 1));
-  // (u, v) becomes offset + turn * scale * (u, v): a quarter turn takes u to -v, v to u
+  // (u, v) becomes offset + rotation * scale * (u, v): a quarter turn maps u to -v, v to u
   CHECK(is_at(place_at(body, {0, 0, 0}), 0.25f + 0.1f, -1.2f));
 }
 

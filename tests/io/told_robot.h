@@ -1,4 +1,4 @@
-// A robot read, with all that is told of it.
+// Reads a robot and stores all diagnostics about it.
 #pragma once
 #include <doctest/doctest.h>
 
@@ -55,7 +55,7 @@ struct ToldRobot {
   }
 };
 
-/// How far a joint is turned about its axis where its q is 0, in (-pi, pi].
+/// Angle by which a joint is turned about its axis at q = 0, in (-pi, pi].
 inline double constant_turn(const JointSpec& joint) {
   const Eigen::Quaterniond& R = joint.X_PJ.rotation;
   return std::remainder(2 * std::atan2(R.vec().dot(joint.axis), R.w()), 2 * 3.14159265358979323846);

@@ -18,7 +18,7 @@ static Pose tags(const std::string& text) {
   return read_tagged_transform(first, lines);
 }
 
-// angles in degrees and six digits of pi round in the last bits only
+// angles in degrees and six digits of pi differ only by rounding
 static bool same(const Pose& a, const Pose& b) {
   return (a.position - b.position).norm() < 1e-12 && (a.matrix() - b.matrix()).norm() < 1e-12;
 }

@@ -1,5 +1,5 @@
-// URDF and MJCF files cut short anywhere, and files with parts exchanged at random: a robot or an
-// Error that names the file, never a crash or a hang.
+// URDF and MJCF files cut at any position, and files with parts exchanged at random, give a robot
+// or an Error that names the file, never a crash or a hang.
 #include <cmath>
 
 #include "clench/base/random.h"
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Every number of a robot that was read is a number.
+/// No number of a robot that was read is NaN.
 void check_sane(const RobotSpec& robot) {
   check_robot(robot);
   const auto check_body = [](const BodySpec& body) {
@@ -39,7 +39,7 @@ class TreeBench {
     folder_.write("defaults.xml", read_text("tests/data/mjcf/defaults.xml"));
     options_.packages["gripper_description"] = folder_.path();
   }
-  /// The same of a scene.
+  /// The same for a scene.
   bool scene_refused(const std::string& name, const std::string& text) {
     const fs::path file = folder_.write(name, text);
     try {
@@ -60,7 +60,7 @@ class TreeBench {
       return true;
     }
   }
-  /// returns  was it refused?   fails the test when the sentence names none of the files
+  /// returns  true if it was rejected   the test fails if the message names none of the files
   bool refused(const std::string& name, const std::string& text) {
     const fs::path file = folder_.write(name, text);
     try {
@@ -88,8 +88,8 @@ void cut_tree_everywhere(const std::string& name, const std::string& text) {
   for (size_t n = 0; n + 20 < text.size(); n += 41) CHECK(bench.refused(name, text.substr(0, n)));
 }
 
-/// A word or number within quotes, an element's name, a line: taken from elsewhere in the text, or
-/// odd.
+/// A random change: a word or number within quotes, an element's name or a line is replaced by
+/// another one from the text, or by an odd one.
 std::string changed(std::string s, Random& random) {
   static const char* const odd[] = {"",      "nan",   "-1",   "0",    "1e15",       "1e-300",
                                     "a b c", "0 0 0", "1e99", "palm", "2147483648", "-0"};
@@ -113,13 +113,13 @@ std::string changed(std::string s, Random& random) {
       case 1:
         s.replace(a, b - a, odd[random.bits() % std::size(odd)]);
         break;
-      case 2: {  // a line goes
+      case 2: {  // deletes a line
         const size_t end = s.find('\n', a);
         const size_t begin = s.rfind('\n', a);
         if (begin != std::string::npos && end != std::string::npos) s.erase(begin, end - begin);
         break;
       }
-      case 3: {  // a line comes twice
+      case 3: {  // repeats a line
         const size_t end = s.find('\n', a), begin = s.rfind('\n', a);
         if (begin != std::string::npos && end != std::string::npos)
           s.insert(begin, s.substr(begin, end - begin));
@@ -128,7 +128,7 @@ std::string changed(std::string s, Random& random) {
       case 4:
         s[random.bits() % s.size()] = static_cast<char>(random.bits());
         break;
-      default: {  // a number changes its size
+      default: {  // scales a number
         const auto value = parse_number(trim(std::string_view(s).substr(a, b - a)));
         if (value)
           s.replace(a, b - a, fmt::format("{}", *value * (random.uniform() < 0.5 ? -3 : 1e6)));
@@ -147,7 +147,7 @@ void change_tree_at_random(const std::string& name, const std::string& text, int
     INFO(bad);
     refused += bench.refused(name, bad);
   }
-  // some changes are harmless, some are not
+  // some changes are harmless, others are not
   CHECK(refused > times / 10);
   CHECK(refused < times);
 }

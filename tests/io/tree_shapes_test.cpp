@@ -7,7 +7,7 @@
 using namespace clench;
 
 using std::numbers::pi;
-// a circle of n edges has this part of the disc's area
+// ratio of the area of a circle of n edges to that of the disc
 static const double disc = circle_edges / (2 * pi) * std::sin(2 * pi / circle_edges);
 
 static void check_sound(const Mesh& mesh) {
@@ -44,7 +44,7 @@ TEST_CASE("points of a capsule lie at its radius from its segment") {
       const Eigen::Vector3d nearest(0, 0, std::clamp(p.z(), -length / 2, length / 2));
       CHECK((p - nearest).norm() == doctest::Approx(1.5));
     }
-    // inscribed: less than the true one, by less than two parts of a hundred
+    // inscribed: smaller than the true solid, by less than 2 %
     const double volume = pi * 1.5 * 1.5 * (length + 4.0 / 3 * 1.5);
     CHECK(solid_mass(mesh).volume < volume);
     CHECK(solid_mass(mesh).volume > 0.98 * volume);
@@ -54,8 +54,8 @@ TEST_CASE("points of a capsule lie at its radius from its segment") {
 TEST_CASE("the closed formulas are those that meshes come near from within") {
   const auto near = [](const MassProperties& exact, const Mesh& mesh) {
     const MassProperties from = solid_mass(mesh);
-    // a circle of 32 edges has 0.64 % less area than its own, a ball of 32 by 16 about 2 % less
-    // volume
+    // a circle of 32 edges has 0.64 % less area than the true one, a ball of 32 by 16 about 2 %
+    // less volume
     CHECK(from.volume < exact.volume);
     CHECK(from.volume == doctest::Approx(exact.volume).epsilon(0.03));
     for (int i = 0; i < 3; ++i)

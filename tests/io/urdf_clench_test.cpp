@@ -1,4 +1,4 @@
-// The element <clench> of a URDF: faults in it are reported by file and line.
+// The element <clench> of a URDF: errors in it are reported with file and line.
 #include "clench/base/error.h"
 #include "temporary.h"
 #include "told_robot.h"

@@ -1,4 +1,4 @@
-// Mesh files that a URDF names, however it spells the name.
+// Mesh files named by a URDF in all kinds of spelling.
 #include "clench/io/urdf/urdf_files.h"
 
 #include "clench/base/error.h"

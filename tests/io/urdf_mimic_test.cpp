@@ -10,7 +10,7 @@ using namespace clench;
 using clench::test::TemporaryFolder;
 using clench::test::ToldRobot;
 
-/// Links a, b, c, d in a row, connected by joints i, j and k with given contents.
+/// Links a, b, c, d in a chain, connected by joints i, j and k with given contents.
 static std::string chain_of_four(const std::string& i, const std::string& j, const std::string& k) {
   std::string text = "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>";
   text += "<link name='d'/>\n";

@@ -409,7 +409,7 @@ TEST_CASE("of a joint without limits and one that follows it only limits that fi
     CHECK(follower.warnings.empty());
     CHECK(!dof_is_endless(follower.robot, 0));
     CHECK(dof_range(follower.robot, 0)[1] == 5);
-    // what would all but stop the other is taken for a slip
+    // limits that would almost stop the leader are treated as a mistake
     const ToldRobot slip = pair(leads, limited, "100");
     CHECK(
         slip.warned("joint 'm' follows 'k' from -628.319 to 628.319, and its own limits [-5, 5] "
@@ -455,12 +455,12 @@ TEST_CASE("a DOF slides or turns as its leader does, whichever stands first") {
       if (joint.dof == told.joint("k").dof) joints.push_back(joint.name);
     });
     CHECK(joints == std::vector<std::string>{"k", "j"});
-    // others stay where they were
+    // the order of others is unchanged
     CHECK(told.robot.dofs[0].name == "s");
     CHECK(test::joint_of(told.robot, 0, 0).name == "s");
     CHECK(told.joint("j").ratio == 0.02);
   }
-  // behind its follower the leader stays
+  // a leader distal to its follower stays there
   const ToldRobot behind = read("b");
   CHECK(behind.joint("k").ratio == 1);
   CHECK(behind.robot.dofs.size() == 2);

@@ -39,7 +39,7 @@ VirtualContactSet random_contacts(uint64_t seed) {
   return set;
 }
 
-// A rounding in the last place is all that millimeters cost.
+// Millimeters cause only a rounding error in the last place.
 constexpr double last_place = 4e-16;
 
 void check_near(const VirtualContactSet& a, const VirtualContactSet& b) {
@@ -220,7 +220,7 @@ TEST_CASE("contacts on an object written and read again are the same") {
   for (size_t i = 0; i < back.size(); ++i) {
     CHECK((back[i].X_OC.position - contacts[i].X_OC.position).norm() < 1e-16);
     CHECK(back[i].X_OC.rotation.coeffs() == contacts[i].X_OC.rotation.coeffs());
-    CHECK((back[i].n_O - contacts[i].n_O).norm() < last_place);  // made unit again
+    CHECK((back[i].n_O - contacts[i].n_O).norm() < last_place);  // normalized
     CHECK(back[i].mu == contacts[i].mu);
   }
   contacts[0].placed = false;

@@ -6,7 +6,8 @@ using namespace clench;
 using clench::test::TemporaryFolder;
 using clench::test::Warnings;
 
-/// A world in a folder with a box, a hand of a rigid and a breakaway DOF, and a robot without DOFs.
+/// A world in a folder with a box, a hand with a rigid and a breakaway DOF, and a robot without
+/// DOFs.
 static WorldSpec wld_world_of(const std::string& text, const ReadOptions& options = {}) {
   const TemporaryFolder folder;
   const std::string box = "#Inventor V2.1 ascii\n#material rubber\nCube { }\n";

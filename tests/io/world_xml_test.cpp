@@ -7,7 +7,7 @@ using namespace clench;
 using clench::test::TemporaryFolder;
 using clench::test::Warnings;
 
-/// A library with a box and a hand of one joint, and a world in a folder of its own.
+/// A library with a box and a hand of one joint, and a world in a separate folder.
 static void write_library(const TemporaryFolder& folder) {
   folder.write("models/box.iv", "#Inventor V2.1 ascii\n#material rubber\nCube { }\n");
   folder.write("models/robots/iv/box.iv", "#Inventor V2.1 ascii\nCube { }\n");
@@ -110,7 +110,7 @@ TEST_CASE("a name of another generation finds the file of this one, and a note s
   CHECK(w.bodies[0].body.name == "box");
   CHECK(notes[0] == "w.xml:2: there is no models/robots/hand.xml; hand.cfg is taken");
   CHECK(std::ranges::count(notes, "w.xml:4: there is no models/box.xml; box.iv is taken") == 1);
-  // and back: text worlds find XML files
+  // and in the other direction: text worlds find XML files
   folder.write("models/robots/iv/part.xml", "<root><geometryFile>box.iv</geometryFile></root>");
   folder.write("models/robots/claw.xml", "<robot type=\"Hand\"><palm>part.iv</palm></robot>");
   const auto text =

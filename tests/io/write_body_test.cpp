@@ -99,7 +99,7 @@ TEST_CASE("triangles that vanish in 32 bits are counted") {
   const TemporaryFolder folder;
   BodySpec body;
   Mesh mesh = test::box(1, 1, 1);
-  // a corner cut off by less than 32 bits can tell
+  // a corner cut off by less than the resolution of 32 bits
   const int n = static_cast<int>(mesh.vertices.size());
   for (auto& p : mesh.vertices) p += Eigen::Vector3d(100, 100, 100);
   const Eigen::Vector3d corner = mesh.vertices[0];
@@ -122,7 +122,7 @@ TEST_CASE("a body as .iv keeps its matter to the bit, its color, and 32 bits of 
   const BodySpec again = read_body(folder.path() / "a.iv");
   check_same_matter(body, again);
   CHECK((again.appearance.color - body.appearance.color).norm() < 1e-6);  // 32 bits
-  // vertices stand in the order in which faces name them
+  // vertices are in the order in which faces name them
   const Mesh &a = body.shape->mesh(), &b = again.shape->mesh();
   REQUIRE(a.triangles.size() == b.triangles.size());
   for (size_t t = 0; t < a.triangles.size(); ++t)

@@ -70,7 +70,7 @@ const std::string surface =
     "3 0 2 1 1.0 0.0 0.0\n3 0 1 3 0.3 0.7 1.0\n3 1 2 3 1.0 1.0 1.0\n"
     "3 2 0 3 0.1 0.2 0.3\n";
 
-/// All that an .xml robot may hold.
+/// All properties that an .xml robot may have.
 fs::path full_robot(const TemporaryFolder& folder) {
   folder.write("iv/palm.xml",
                "<root><material>rubber</material><youngs>1.5e6</youngs><mass>7.77</mass>"
@@ -114,7 +114,7 @@ TEST_CASE("every hand and arm of ours stands in a .urdf as it did, whatever its 
         CHECK(a[0] == doctest::Approx(b[0]).epsilon(1e-15));
         CHECK(a[1] == doctest::Approx(b[1]).epsilon(1e-15));
       }
-      // the inertia of an arm's link holds that of its motor, and no body has it
+      // the inertia of an arm's link includes that of its motor, which no rigid body can have
       if (std::string(kind) == "models/hands") CHECK(urdf.warnings.empty());
       CHECK(largest_gap(robot, urdf.robot) < 1e-12);
       if (fs::exists(egr)) reading.eigengrasps = egr.string();
@@ -172,7 +172,7 @@ TEST_CASE("what a .urdf says of its own, readers of ours read") {
   CHECK(again.collision_rules.near_pairs_off == robot.collision_rules.near_pairs_off);
   CHECK(again.collision_rules.parts_off.size() == robot.collision_rules.parts_off.size());
   REQUIRE(again.dofs.size() == robot.dofs.size());
-  // DOF 0 counts 0.7 times as far
+  // the values of DOF 0 are multiplied by 0.7
   const std::vector<double> scale = {0.7, 1};
   for (size_t d = 0; d < 2; ++d) {
     const DofSpec &was = robot.dofs[d], &is = again.dofs[d];
@@ -205,7 +205,7 @@ TEST_CASE("what a .urdf says of its own, readers of ours read") {
   CHECK(!muscle.law_known);
 }
 
-/// Files of robots of the original, each third one from `first` on, and what is read of them.
+/// Every third file of GraspIt!'s robots, from number `first`, with the robot read from it.
 static std::vector<std::pair<fs::path, RobotSpec>> robots_of_the_original(size_t first) {
   std::vector<std::pair<fs::path, RobotSpec>> out;
   auto files = files_below(shared() / "data/graspit/models/robots", {".cfg"});
@@ -215,7 +215,7 @@ static std::vector<std::pair<fs::path, RobotSpec>> robots_of_the_original(size_t
     try {
       out.emplace_back(files[i], read_robot(files[i]));
     } catch (const Error&) {
-      // bodies, eigengrasps and contacts, and what is broken
+      // bodies, eigengrasps and contacts, and invalid files
     }
   }
   return out;
@@ -227,7 +227,7 @@ TEST_CASE("robots of the original stand in a .urdf as they did") {
     INFO(file.string());
     const TemporaryFolder out;
     const auto urdf = written(robot, out.path() / "hand.urdf");
-    // DOFs that move no joint are lost, and some count otherwise in it
+    // DOFs that move no joint are lost, and some have other values in the file
     const bool same = std::ranges::none_of(urdf.lost, [](const std::string& sentence) {
       return sentence.find("moves no joint") != std::string::npos ||
              sentence.find("times as far") != std::string::npos;
@@ -325,7 +325,7 @@ TEST_CASE("a robot whose file cannot be written keeps the older one") {
                                    (folder.path() / "folder.urdf").string())
                            .c_str(),
                        Error);
-  // a file where the folder of the links should be
+  // a file in place of the folder of the links
   robot.base.shape = Shape::make(box(1, 1, 1));
   folder.write("hand_files", "");
   const fs::path older = folder.write("hand.urdf", "older");

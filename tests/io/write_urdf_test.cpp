@@ -28,7 +28,8 @@ RobotSpec gripper() {
   return read_robot("tests/data/urdf/gripper.urdf", options);
 }
 
-/// DOFs of the same names, ranges, efforts and velocities, moving chains of the same make.
+/// Compares names, ranges, efforts and velocities of DOFs, and the structure of the chains that
+/// they move.
 void check_same_kinematics(const RobotSpec& a, const RobotSpec& b) {
   CHECK(a.name == b.name);
   REQUIRE(a.dofs.size() == b.dofs.size());
@@ -62,7 +63,7 @@ void check_same_kinematics(const RobotSpec& a, const RobotSpec& b) {
   }
 }
 
-/// The plan numbers links and chains as the reader of its file does.
+/// The plan numbers links and chains like the reader of its file.
 void check_outline(const RobotSpec& robot, const RobotSpec& read) {
   const RobotSpec outline = outline_of(plan_urdf(robot));
   REQUIRE(outline.links.size() == read.links.size());
@@ -79,7 +80,7 @@ void check_outline(const RobotSpec& robot, const RobotSpec& read) {
   }
 }
 
-/// A robot of one chain of one link, with the name.
+/// A robot of one chain with one link, with the given name.
 RobotSpec one_link(const std::string& name, const std::string& link_name) {
   RobotSpec robot;
   robot.name = name;
@@ -225,7 +226,7 @@ TEST_CASE("links and joints of one name get others, and a name that readers trim
 
 TEST_CASE("leaders keep their DOF's order, opposite and partial ratios their sense") {
   const TemporaryFolder folder;
-  // the first chain moves with the second DOF, and only against or in part
+  // the first chain moves with the second DOF, but only in the opposite direction or with a ratio
   RobotSpec robot = one_link("any", "left");
   robot.dofs.resize(2);
   robot.dofs[0].name = "first", robot.dofs[1].name = "second";
@@ -248,7 +249,7 @@ TEST_CASE("leaders keep their DOF's order, opposite and partial ratios their sen
   CHECK(urdf.robot.dofs[0].name == "first");
   CHECK(urdf.robot.dofs[1].name == "second");
   CHECK(urdf.told("hand.urdf: DOF 0 counts 0.5 times as far in it, as its joint 'first' does"));
-  // values of a DOF are those of its first joint turned the DOF's way
+  // values of a DOF are those of its first joint, in the DOF's direction
   Random random(4, 0);
   for (int k = 0; k < 10; ++k) {
     auto dofs = any_dofs(robot, random);
@@ -280,7 +281,7 @@ TEST_CASE("a follower that leaves its leader next to nothing is no slip when it 
 
 TEST_CASE("virtual contacts of a .urdf name its own chains and links") {
   const TemporaryFolder folder;
-  // in the file, the link that two joints move is the second of its chain
+  // in the file, the link that is moved by two joints is the second of its chain
   RobotSpec robot = one_link("any", "tip");
   auto& joints = robot.links[0].joints;
   joints.push_back(joints[0]);

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 static const fs::path library = "tests/data/two_finger";
 
-/// Two robots, the second carried by the first, three bodies, a camera; all standing anywhere.
+/// Two robots, the second carried by the first, three bodies, a camera; all at arbitrary poses.
 static WorldSpec any_world(uint64_t seed) {
   Random random(5, seed);
   ReadOptions options;
@@ -50,7 +50,7 @@ static WorldSpec any_world(uint64_t seed) {
   return world;
 }
 
-/// One rounding of a length in meters to millimeters and one back.
+/// One rounding of a length from meters to millimeters and one back.
 static constexpr double world_rounding = 1e-15;
 
 static double gap(const Pose& a, const Pose& b) {
@@ -93,7 +93,7 @@ TEST_CASE("a decimal in another unit is read back to the bit, and is no longer t
   Random random(3, 0);
   for (int i = 0; i < 2000; ++i) {
     const double unit = i % 3 ? 1e-3 : 1e-6, factor = i % 2 ? 1 : random.uniform(-3, 3);
-    // as it stood in a file, with few digits or all
+    // as in a file, with few digits or all
     double written = random.uniform(-1000, 1000);
     if (i % 4 == 0) written = std::round(written * 100) / 100;
     const double value = written * unit * factor;
@@ -151,12 +151,12 @@ TEST_CASE("files below the root are named from it, others whole, and each is fou
   rooted.root = folder.path() / "lib";
   CHECK(read_world(saved, rooted).bodies[0].body.file == inside.generic_string());
 
-  // a decoy that would be found first makes the name whole
+  // a decoy that would be found first requires the complete name
   folder.write("place/models/box.iv", "#Inventor V2.1 ascii\nSphere { }\n");
   write_world(world, saved, {.root = folder.path() / "lib"});
   CHECK(read_world(saved, rooted).bodies[0].body.file == inside.generic_string());
 
-  // below the file's own folder a name needs no root
+  // below the file's folder a name needs no root
   const fs::path near = folder.write("w.xml", "");
   write_world(world, near);
   CHECK(read_text(near).find("<filename>lib/models/box.iv</filename>") != std::string::npos);

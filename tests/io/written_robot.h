@@ -1,4 +1,4 @@
-// A robot written and read again, with all that was said on the way.
+// A robot written and read again, with all diagnostics.
 #pragma once
 #include <algorithm>
 

@@ -1,5 +1,5 @@
-// XML files cut short anywhere and with words exchanged at random: a spec or an Error that names
-// the file, never a crash or a hang.
+// XML files cut at any position and with words exchanged at random give a spec or an Error that
+// names the file, never a crash or a hang.
 #include "clench/base/error.h"
 #include "clench/base/random.h"
 #include "clench/io/read.h"
@@ -66,7 +66,7 @@ const test::Oddities odd_xml = {
      "base", "d0",        "d5*0",  "]]>", "",     "0",    "=",   "(0 0 0 0)[0 0 0]"},
     " \n<>\""};
 
-/// The folder with the files that others name, and a reader for a text of each kind.
+/// The folder with the files that others name, and a reader for texts of each kind.
 class XmlBench {
  public:
   XmlBench() {
@@ -74,7 +74,7 @@ class XmlBench {
       folder_.write(name, "#Inventor V2.1 ascii\nCube { }\n");
     folder_.write("hand.xml", xml_robot);
   }
-  /// returns  was it refused?   fails the test when the sentence does not name the file
+  /// returns  true if it was rejected   the test fails if the message does not name the file
   bool refused(const std::string& kind, const std::string& text) {
     const fs::path file = folder_.write("a.xml", text);
     try {
@@ -98,7 +98,7 @@ class XmlBench {
 void try_all(const std::string& kind, const std::string& text, int times) {
   XmlBench bench;
   CHECK_FALSE(bench.refused(kind, text));
-  // without its last tag no element is whole
+  // without its last tag the root element is incomplete
   for (size_t n = 0; n + 8 < text.size(); n += 7) CHECK(bench.refused(kind, text.substr(0, n)));
   for (int i = 0; i < times; ++i) {
     Random random(17, static_cast<uint64_t>(i));

@@ -139,9 +139,9 @@ TEST_CASE("what is no well-formed XML is told with its line") {
   CHECK(refusal("<a>\n<!-- no end </a>") == "a.xml:2: " + expected + "a comment that does not end");
   CHECK(refusal("<a>\n<![CDATA[ no end </a>") ==
         "a.xml:2: " + expected + "CDATA that does not end");
-  // the parser would leave out all that follows
+  // the parser would omit the rest
   CHECK(refusal("<a></a>\n</a>\n<b/>") == "a.xml:2: '</a>' closes nothing");
-  // names are cut short and have no control characters
+  // names are shortened and have no control characters
   CHECK(refusal("<" + std::string(1000, 'x') + "></a>") == "a.xml:1: " + expected + "<" +
                                                                std::string(max_excerpt, 'x') +
                                                                "...> without its closing tag");

@@ -218,7 +218,7 @@ void Mover::find_carriers(const System& system) {
   while (!waiting.empty()) {
     std::vector<Part> found, rest;
     for (Part& part : waiting) (carriers.find(part, waiting) ? found : rest).push_back(part);
-    // what touches no prescribed body comes last
+    // bodies that touch no prescribed body come last
     if (found.empty()) found.swap(rest);
     sorted.insert(sorted.end(), found.begin(), found.end());
     waiting.swap(rest);

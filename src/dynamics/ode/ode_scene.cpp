@@ -165,7 +165,7 @@ void OdeScene::find_motion(const Articulation& tree, int number) {
   }
 }
 
-// what hangs on a base whose velocity jumps keeps its own velocity
+// bodies attached to a base whose velocity jumps keep their velocities
 void OdeScene::base_impulse(const Articulation& tree, int number) {
   if (tree.floating) return;
   OdeTree& out = trees_[number];

@@ -1,4 +1,4 @@
-// Whether demands on contacts and joints may contradict each other.
+// Tests for contradictory demands on contacts and joints.
 #pragma once
 #include "clench/dynamics/solve/scaled_friction.h"
 

@@ -42,8 +42,8 @@ class FrictionNewton {
   ///         from piece to piece
   End follow(const ScaledFriction& problem, const Eigen::VectorXd& q, double damping,
              int max_iterations, Eigen::VectorXd& r);
-  /// One step towards a solution of the undamped problem, which keeps as it is what S leaves
-  /// undetermined.
+  /// One step towards a solution of the undamped problem, which does not change components that S
+  /// leaves undetermined.
   /// u        S r + q
   /// returns  false: the matrix is singular
   bool refine(const ScaledFriction& problem, double damping, const Eigen::VectorXd& u,
@@ -77,8 +77,8 @@ class FrictionNewton {
   void begin_path(const ScaledFriction& problem, const Eigen::VectorXd& r,
                   const Eigen::VectorXd& u);
   void find_slides(const ScaledFriction& problem);
-  /// Where a block leaves its state along z + alpha by, for alpha up to `most`, and the state it
-  /// enters.
+  /// The alpha, up to `most`, at which a block leaves its state along z + alpha by, and the state
+  /// that it enters.
   double leaves(const ScaledFriction::ScaledBlock& block, State state, const double* z,
                 const double* by, double most, State& next) const;
 

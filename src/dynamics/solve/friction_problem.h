@@ -31,8 +31,9 @@ struct FrictionProblem {
     bool is_contact() const { return tangents >= 0; }
     int size() const { return is_contact() ? 1 + tangents : 1; }
   };
-  Eigen::MatrixXd W;  ///< symmetric, positive semidefinite: often singular [1/kg and the like]
-  Eigen::VectorXd q;  ///< velocities without impulses, minus their targets [m/s, rad/s]
+  /// symmetric, positive semidefinite: often singular [1/kg, for rotations 1/(kg m^2)]
+  Eigen::MatrixXd W;
+  Eigen::VectorXd q;          ///< velocities without impulses, minus their targets [m/s, rad/s]
   std::vector<Block> blocks;  ///< they cover the rows in order
 };
 

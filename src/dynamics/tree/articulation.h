@@ -1,6 +1,6 @@
-// Which bodies move together: robots with all that they carry, and free bodies with what is welded
-// to them, each as a tree of joints with its own coordinates. Joints cannot drift apart, since only
-// the coordinates are integrated.
+// Groups of bodies that move together: robots with all bodies that they carry, and free bodies with
+// those welded to them, each as a tree of joints with separate coordinates. Joints cannot drift
+// apart, because only the coordinates are integrated.
 #pragma once
 #include <vector>
 

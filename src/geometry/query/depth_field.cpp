@@ -119,10 +119,11 @@ void DepthField::find_near(const Sphere& ball, const Probe& center, NearTriangle
                        out.triangles.begin());
 }
 
-// Where no near surface is in front of the plane of a triangle, the outside is: points of the ball in
-// front of it are outside, and the depth is at most the distance from the plane.
-// Where triangles lie in front of the planes of each other, and any other near triangle behind one of
-// these planes, what is in front of all is convex and outside, and the distance from it is convex.
+// If no near surface is in front of the plane of a triangle, the points of the ball in front of it
+// are outside, and the depth is at most the distance from the plane.
+// If triangles are in front of each other's planes, and any other near triangle is behind one of
+// these planes, the region in front of all of them is convex and outside, and the distance from it
+// is convex.
 void DepthField::local_rows(Simplex corners, const Sphere& ball, const NearTriangles& near,
                             FunctionRef<void(const GameRow&, int)> take) const {
   if (!near.complete || near.count > few_triangles) return;

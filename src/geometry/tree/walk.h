@@ -33,7 +33,7 @@ struct NearPair {
   int triangle_a, triangle_b;
 };
 
-/// Two meshes beside each other.
+/// Result of a test for the separation of two meshes.
 struct Separation {
   bool found = false;  ///< sure: b lies farther than the reach beyond a along the direction
   double along[3] = {0, 0, 0};  ///< in the frame of a; unit, up to 2^-14

@@ -15,7 +15,7 @@ enum class DofOrder {
 
 struct GraspDofOptions {
   DofOrder order = DofOrder::unknown;
-  Diagnostics diagnostics = {};  ///< receives each value that is not used as it stands
+  Diagnostics diagnostics = {};  ///< receives each value that is changed or ignored
 };
 
 /// Posture of a hand: values of all its DOFs, and joints that deviate from their DOF's value.

@@ -1,4 +1,5 @@
-// What a grasp was measured of, and with: fingerprints by which a list is compared with a world.
+// Fingerprints of the hand, the object and the settings with which a grasp was measured; a list of
+// grasps is compared with a world by them.
 #pragma once
 #include <string>
 

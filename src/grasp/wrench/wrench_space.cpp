@@ -363,7 +363,7 @@ EpsilonBounds WrenchSpace::epsilon_bounds(const EpsilonOptions& options,
   };
   if (!bracket_ || !decides(*bracket_)) {
     Bracket found = bracket_of(prepared().reach, tolerance, std::max(0.0, at_least), progress);
-    // the distance reached is what matters later
+    // later steps need the distance reached
     found.tolerance = std::max(found.upper - found.lower, flat_tolerance);
     if (bracket_) {
       found.lower = std::max(found.lower, bracket_->lower);

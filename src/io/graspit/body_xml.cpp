@@ -23,7 +23,7 @@ const XmlKnown known_elements = {
              "geometryFile", "geometryScaling", "geometryScalingX", "geometryScalingY",
              "geometryScalingZ", "geometryOffset", "mass", "cog", "inertia_matrix"}};
 
-/// absent  what stands for 0; 0: nothing does
+/// absent  value used instead of 0; 0: no replacement
 double number_of(const XmlElement& element, const Quantity& quantity, Repairs& repairs,
                  double absent = 0) {
   const Place subject = element.place().of(element.name());
@@ -51,7 +51,7 @@ Eigen::Vector3d read_scaling(const XmlElement& body, Repairs& repairs) {
   return scaling;
 }
 
-/// By the file's ending; where nobody knows that, by the attribute `type`.
+/// Format by the file's ending; if that is unknown, by the attribute `type`.
 GeometryFormat read_format(const XmlElement& file, const ReadOptions& options) {
   const GeometryFormat format = geometry_format(ending_of(file.text()));
   const auto type = file.attribute("type");
@@ -70,13 +70,13 @@ GeometryFormat read_format(const XmlElement& file, const ReadOptions& options) {
   return format;
 }
 
-/// Triangles in the body frame; coordinates of the file count as millimeters.
+/// Triangles in the body frame; coordinates in the file are in millimeters.
 Geometry read_scaled(const XmlElement& element, const PlacedFile& file, FileCache& cache) {
   Eigen::Vector3d scaling = file.scaling;
   ReadOptions options = cache.options();
   options.mesh_scale.reset();
   if (file.format != GeometryFormat::inventor) {
-    // one factor for both, so that meters scaled by 1000 lose no digit
+    // unit and scale combined into one factor: meters scaled by 1000 lose no digits
     options.mesh_scale = units::millimeter * scaling.x();
     scaling /= scaling.x();
   }

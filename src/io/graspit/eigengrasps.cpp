@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::VectorXd;
 
-constexpr int max_dofs = 1000;  // as of robots
+constexpr int max_dofs = 1000;  // same limit as for robots
 
 void check_plausible_eigenvalues(const EigengraspSet& set, const std::vector<Place>& places,
                                  const ReadOptions& options) {
@@ -26,9 +26,9 @@ void check_plausible_eigenvalues(const EigengraspSet& set, const std::vector<Pla
                                     "its eigenvalue is {}, and variances are >= 0", x);
 }
 
-/// Where the parts of a set stand in its file.
+/// Places in the file of the parts of a set.
 struct Places {
-  EigengraspPlaces errors;    // as errors show them
+  EigengraspPlaces errors;    // as shown in errors
   std::vector<Place> grasps;  // one per eigengrasp
 };
 
@@ -37,7 +37,7 @@ void tell_count(Repairs& repairs, const Place& place, int declared, int given) {
               declared, declared == 1 ? " is" : "s are", given, given);
 }
 
-/// There are at most as many as DOFs.
+/// Adds an eigengrasp, up to one per DOF.
 void add_grasp(EigengraspSpec grasp, const Place& place, EigengraspSet& set, Places& places,
                Repairs& repairs) {
   if (static_cast<int>(set.grasps.size()) >= set.dofs) {
@@ -56,7 +56,7 @@ bool begins_block(std::string_view keyword) {
   return keyword == "eg" || keyword == "origin" || keyword == "norm";
 }
 
-/// With how many numbers the lines of values begin, all of them at least.
+/// Number of values with which all value lines begin.
 int given_dofs(const std::string& text) {
   LineReader lines("", text);
   std::optional<int> least;
@@ -89,12 +89,12 @@ class EgrReader {
 
   const ReadOptions& options_;
   Repairs repairs_;
-  int given_;  // so many numbers every block begins with
+  int given_;  // number of values with which all blocks begin
   LineReader lines_;
   EigengraspSet set_;
   Places places_;
   int junk_lines_ = 0;
-  Diagnostic junk_;  // the first, as it will be told
+  Diagnostic junk_;  // the first one, as reported
 };
 
 EigengraspSet EgrReader::read() {
@@ -103,7 +103,7 @@ EigengraspSet EgrReader::read() {
     head.fail("expected DIMENSIONS and the number of DOFs, got {}", in_quotes(head.word(0)));
   set_.dofs = head.integer(1, "DIMENSIONS", 1, max_dofs);
   warn_of_surplus(head, 2, options_.diagnostics);
-  // what is declared counts for less than what all blocks have
+  // if all blocks have more values than declared, their number is used
   if (given_ > set_.dofs && given_ <= max_dofs) {
     tell_count(repairs_, head.place(), set_.dofs, given_);
     set_.dofs = given_;
@@ -137,7 +137,7 @@ double EgrReader::read_eigenvalue(const std::string& what) {
   return line.number(0, what + ": eigenvalue");
 }
 
-// a line that is too short goes on in the next one
+// a line with too few values is continued on the next one
 VectorXd EgrReader::read_values(const std::string& what) {
   VectorXd values(set_.dofs);
   for (int i = 0; i < set_.dofs;) {
@@ -162,7 +162,7 @@ void EgrReader::read_block(const std::string& keyword, const Line& line) {
   }
   auto& target = keyword == "norm" ? set_.norm : set_.origin;
   if (target) options_.diagnostics.warn(line.place(), "a second {}; the first one counts", keyword);
-  read_eigenvalue(keyword);  // stands there, and means nothing
+  read_eigenvalue(keyword);  // required but unused
   const VectorXd values = read_values(keyword);
   if (!target)
     (keyword == "norm" ? places_.errors.norm : places_.errors.origin) = line.place().text();
@@ -211,13 +211,13 @@ EigengraspSet EigengraspXml::read() {
   return std::move(set_);
 }
 
-/// The number of DOF that an attribute "d3" names; empty when it names none.
+/// Number of the DOF named by an attribute "d3"; empty for other names.
 std::optional<int> numbered_dof(const std::string& name) {
   const auto number = name.starts_with('d') ? parse_integer(name.substr(1)) : std::nullopt;
   return number && *number >= 0 && *number < max_dofs ? number : std::nullopt;
 }
 
-/// What is declared counts for less than what is given.
+/// If more DOFs are used than declared, their number is used.
 void EigengraspXml::count_dofs(const XmlElement& root) {
   set_.dofs = root.integer_attribute("dimensions", 1, max_dofs);
   int given = set_.dofs;
@@ -247,7 +247,7 @@ EigengraspSpec EigengraspXml::read_grasp(const XmlElement& block) {
   return grasp;
 }
 
-// values that are not there are `missing`
+// `missing` replaces absent values
 VectorXd EigengraspXml::read_values(const XmlElement& block, double missing) {
   VectorXd values = VectorXd::Constant(set_.dofs, missing);
   const XmlElement list = block.expected("DimVals");

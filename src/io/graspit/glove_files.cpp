@@ -8,7 +8,7 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-static constexpr int max_entries = 1000;  // DOFs, sensors of a glove
+static constexpr int max_entries = 1000;  // limit of DOFs and of sensors of a glove
 
 GloveCalibration read_glove_calibration(const fs::path& path, const ReadOptions& options) {
   return of_file([&] {
@@ -16,7 +16,8 @@ GloveCalibration read_glove_calibration(const fs::path& path, const ReadOptions&
     NumberReader numbers(lines);
     const int dofs = numbers.integer("number of DOFs", 1, max_entries);
     const int sensors = numbers.integer("number of sensors", 1, max_entries);
-    std::vector<double> slopes;  // grows with the file, not with what it promises
+    // grows with the contents of the file, not with the count that it claims
+    std::vector<double> slopes;
     for (int d = 0; d < dofs; ++d)
       for (int s = 0; s < sensors; ++s)
         slopes.push_back(numbers.number(fmt::format("DOF {}: slope {}", d + 1, s + 1)));
@@ -29,7 +30,7 @@ GloveCalibration read_glove_calibration(const fs::path& path, const ReadOptions&
   });
 }
 
-// a flag, then n items when it is 1
+// a flag, followed by n items if it is 1
 template <class Item>
 static std::vector<Item> optional_list(NumberReader& numbers, int n, const std::string& what,
                                        Item (*read)(NumberReader&, const std::string&)) {
@@ -57,7 +58,7 @@ static GlovePose read_pose(NumberReader& numbers, const std::string& what) {
   pose.sensors = optional_list(numbers, n, what + ": sensor", read_whole);
   pose.dof_of_sensor = optional_list(numbers, n, what + ": DOF of sensor", read_dof);
   pose.joints = optional_list(numbers, n, what + ": joint", read_real);
-  // the only file that writes x y z w
+  // the only file format that writes x y z w
   const Eigen::VectorXd q = numbers.numbers(4, what + ": rotation");
   const auto unit = made_unit({q[3], q[0], q[1], q[2]});
   if (!unit)

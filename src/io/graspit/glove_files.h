@@ -1,4 +1,4 @@
-// Files of data gloves: calibrations, and the poses that calibrations are made from.
+// Files of data gloves: calibrations, and the poses used to compute them.
 #pragma once
 #include <filesystem>
 
@@ -12,11 +12,11 @@ namespace clench {
 GloveCalibration read_glove_calibration(const std::filesystem::path& path,
                                         const ReadOptions& options = {});
 
-/// A posture that somebody wearing the glove held. Lists are empty when the file leaves them out.
+/// A posture recorded with the glove. Lists are empty if the file leaves them out.
 struct GlovePose {
-  std::optional<double> distance;  ///< between the fingertips that were to meet [m]
+  std::optional<double> distance;  ///< between the fingertips that should touch [m]
   std::vector<int> sensors;        ///< raw readings
-  std::vector<int> dof_of_sensor;  ///< from 0; -1: not used
+  std::vector<int> dof_of_sensor;  ///< from 0; -1: unused sensor
   std::vector<double> joints;      ///< [rad]
   Pose pose;                       ///< of the hand
 };

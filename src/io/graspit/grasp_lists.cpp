@@ -22,7 +22,7 @@ static Vector3d direction(const Line& line, const double* x, const char* what) {
 }
 
 static Pregrasp read_pregrasp(const Line& line) {
-  // the brackets in their order, then the numbers between them
+  // find the brackets in order, then the numbers between them
   std::string shape;
   for (const char c : line.text())
     if (c == '[' || c == ']') shape += c;
@@ -76,7 +76,7 @@ void read_planned_grasps(const std::string& file, std::string text, const GraspS
                          const ReadOptions& options) {
   of_file([&] {
     GraspCollector list(file, text.size(), sink);
-    // nine numbers and the blanks between them
+    // nine numbers with separators
     list.expect(text.size() / 17);
     LineReader lines(file, std::move(text));
     int run = -1;
@@ -117,7 +117,7 @@ std::string planned_grasps_text(const std::vector<GraspSpec>& grasps, const std:
   for (const GraspSpec& g : grasps) {
     if (!g.X_OH) fail("{}: expected grasps with a pose, got one without", file);
     const double number = number_of(g.info, "run", 1);
-    // a run is a line of the file
+    // a new run takes one line of the file
     if (!(number >= 1 && number <= max_runs))
       fail("{}: info.run: expected a number from 1 to {}, got {}", file, max_runs, number);
     const int of = floor_int(number);

@@ -19,7 +19,7 @@ constexpr size_t max_found = 10'000;           // primitives
 constexpr double digits =
     1e-4;  // matrices of scene graphs have six digits, and several are multiplied
 
-/// A primitive before it is placed: millimeters, in its own frame.
+/// A primitive in its own frame, in millimeters.
 struct Solid {
   PrimitiveKind kind;
   Vector3d size = Vector3d::Zero();
@@ -63,7 +63,7 @@ Primitive placed(const Solid& shape, const InventorMatrix& X, const std::string&
       box ? shape.size.minCoeff() : std::min(shape.radius, ball ? shape.radius : shape.height);
   if (!(least > 0)) fail("{}: expected sizes > 0, got {}", name, least);
 
-  // turn and scale of each axis; rows are multiplied
+  // rotation and scale of each axis; row vectors are multiplied
   Matrix3d axes;
   Vector3d position;
   for (int i = 0; i < 3; ++i) {
@@ -76,7 +76,7 @@ Primitive placed(const Solid& shape, const InventorMatrix& X, const std::string&
   axes = axes * scale.cwiseInverse().asDiagonal();
   if ((axes.transpose() * axes - Matrix3d::Identity()).cwiseAbs().maxCoeff() > digits)
     fail("{}: it is skewed, and is none any more", name);
-  if (axes.determinant() < 0) axes.col(0) *= -1;  // all of them are the same mirrored
+  if (axes.determinant() < 0) axes.col(0) *= -1;  // all primitives are mirror-symmetric
   const double across = std::max(scale.x(), scale.z());
   const bool oval = ball ? scale.maxCoeff() - scale.minCoeff() > digits * scale.maxCoeff()
                          : std::abs(scale.x() - scale.z()) > digits * across;
@@ -91,7 +91,7 @@ Primitive placed(const Solid& shape, const InventorMatrix& X, const std::string&
   return out;
 }
 
-/// The file that an XML body names; without a path where it names none, which is warned of.
+/// The file named by an XML body; with an empty path and a warning if it names none.
 PlacedFile geometry_of_body(const fs::path& path, const ReadOptions& options) {
   const XmlFile body(path);
   check_body_root(body);
@@ -100,7 +100,7 @@ PlacedFile geometry_of_body(const fs::path& path, const ReadOptions& options) {
   return found.value_or(PlacedFile());
 }
 
-/// Millimeters to millimeters; rows are multiplied.
+/// Transform from millimeters to millimeters, for row vectors.
 InventorMatrix placement_of(const PlacedFile& file) {
   const Pose X_BG = file.X_BG.value_or(Pose{});
   const Matrix3d axes = X_BG.rotation.toRotationMatrix() * file.scaling.asDiagonal();
@@ -116,7 +116,7 @@ InventorMatrix placement_of(const PlacedFile& file) {
 
 std::vector<Primitive> read_primitives(const fs::path& path, const ReadOptions& options) {
   return of_file([&]() -> std::vector<Primitive> {
-    // what somebody has simplified already
+    // a simplified version prepared by the user
     const fs::path beside =
         path.parent_path() / "primitives" / fs::path(path.filename()).replace_extension(".iv");
     PlacedFile source{.path = path};

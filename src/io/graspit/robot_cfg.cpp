@@ -19,10 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int max_parts =
-    1000;  // DOFs, chains, joints, links: far above any hand, far below what fills the memory
+    // limit of DOFs, chains, joints, links: far above any hand, but small enough for the memory
+    1000;
 
-/// The numbers of the DOF as written; their units depend on the kind of its joints, which come
-/// later.
+/// Numbers of a DOF as written; their units depend on the kind of its joints, which are read later.
 struct DofLine {
   Line line;
   DofSpec dof = {};
@@ -99,7 +99,8 @@ RobotSpec CfgReader::read() {
   return std::move(robot_);
 }
 
-/// What a number is for is known to check_robot; until then its products must not overflow.
+/// check_robot checks the range of each quantity later; here only overflow of products is
+/// prevented.
 static double in_bounds(double x, const char* what, const std::string& place) {
   check(number_rule.called(what), x, place);
   return x;
@@ -155,11 +156,12 @@ void CfgReader::read_joint(ChainLinks& chain, int number) {
   };
   JointSpec joint;
 
-  // the DOF stands in the theta column of a revolute joint, in the d column of a prismatic one
+  // the DOF is in the theta column of a revolute joint, in the d column of a prismatic one
   joint.kind = line.word(0).starts_with('d') ? JointKind::revolute : JointKind::prismatic;
   const bool revolute = joint.kind == JointKind::revolute;
   const std::string_view text = line.word(revolute ? 0 : 1);
-  if (!revolute && !parse_joint_expression(text)) value(0, "theta");  // a word there is told first
+  // reports a word in this column first
+  if (!revolute && !parse_joint_expression(text)) value(0, "theta");
   const auto [dof, ratio, offset] =
       expected_expression(text, joint.kind, dof_lines_.size(), place.text());
   joint.dof = dof;
@@ -195,7 +197,7 @@ void CfgReader::read_link(ChainLinks& chain, int number, const std::string& name
   const int before = chain.last_joint(), joints = chain.joints();
   int last = before + 1;
   if (line.size() > 1) {
-    // a link stands on the one before: what moves that, moves it, too
+    // joints that move the link before also move this one
     last = line.integer(1, fmt::format("link {}: last joint", number), before, joints - 1);
   } else {
     cache_.diagnostics().note(line.place().of("link {}", number),
@@ -229,7 +231,7 @@ NamedFile CfgReader::named_file(const char* what) {
 
 void CfgReader::read_tracker() {
   TrackerSpec tracker;
-  // some files leave the number out
+  // some files omit the number
   if (lines_.skip_to_full() && begins_transform(lines_.peek())) {
     cache_.diagnostics().note(lines_.peek().place().of("FlockOfBirds"),
                               "no bird number, 0 is used");

@@ -26,7 +26,7 @@ static std::vector<VirtualContactSpec> fitted(const RobotSpec& robot, VirtualCon
   return contacts_on(robot, std::move(set));
 }
 
-// what a reader makes of the file that the robot's own, `referrer`, names, if any
+// Reads the file named in the robot's own file `referrer`, if any.
 template <class Value, class Held>
 static void read_named(Value (*read)(const fs::path&, const ReadOptions&), const RobotSpec& robot,
                        const NamedFile& named, const fs::path& referrer, const ReadOptions& options,
@@ -44,7 +44,7 @@ static void read_named(Value (*read)(const fs::path&, const ReadOptions&), const
   file = path.generic_string();
 }
 
-// what the user chose must be there
+// files named by the user must exist
 template <class Value, class Held>
 static void read_chosen(Value (*read)(const fs::path&, const ReadOptions&), const std::string& name,
                         const ReadOptions& options, const RobotSpec& robot,

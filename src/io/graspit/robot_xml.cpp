@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t max_elements = 1000;  // DOFs, chains, joints, links: far above any hand
+constexpr size_t max_elements = 1000;  // limit of DOFs, chains, joints, links: far above any hand
 
 class XmlRobotReader {
  public:
@@ -61,7 +61,7 @@ class XmlRobotReader {
   std::vector<XmlElement> dofs_;
   DofKinds dof_kinds_;
   std::vector<Chain> chains_;
-  std::vector<PairOff> pairs_off_;  // to be looked at when all links are known
+  std::vector<PairOff> pairs_off_;  // resolved when all links are known
   RobotSpec robot_;
 };
 
@@ -127,7 +127,8 @@ int XmlRobotReader::part(const XmlElement& element, ChainPlace place) const {
 
 // --- DOFs; their units depend on the kind of their joints ---
 
-/// What it is for is known to check_robot; until then its products must not overflow.
+/// check_robot checks the range of each quantity later; here only overflow of products is
+/// prevented.
 static double bounded(const XmlElement& element, const std::string& subject) {
   const double x = element.number();
   if (const auto wrong = fault(number_rule, x); !wrong.empty())
@@ -135,7 +136,7 @@ static double bounded(const XmlElement& element, const std::string& subject) {
   return x;
 }
 
-/// Of what is never negative; 0 when it is not there.
+/// A value that must not be negative; 0 if absent.
 double XmlRobotReader::magnitude(const XmlElement& parent, const char* name,
                                  const std::string& subject) {
   const XmlElement child = parent.child(name);
@@ -143,7 +144,7 @@ double XmlRobotReader::magnitude(const XmlElement& parent, const char* name,
   return repairs_.magnitude(bounded(child, subject), child.place().of(subject).of(name));
 }
 
-/// Of what counts as 0 when it is missing.
+/// A value that is 0 if missing, which is reported.
 double XmlRobotReader::number_or_zero(const XmlElement& parent, const char* name,
                                       const std::string& subject) {
   if (const XmlElement child = parent.child(name)) return bounded(child, subject);
@@ -188,7 +189,7 @@ void XmlRobotReader::set_dof_units() {
     if (low > high) dofs_[i].fail("DOF {}: {}", i, no_range(range));
     DofSpec& dof = robot_.dofs[i];
     if (dof.default_value < low || dof.default_value > high) {
-      // 0 is only what nobody chose
+      // the implicit default 0 is moved without a message
       if (const XmlElement given = dofs_[i].child("defaultValue"))
         diagnostics().repaired(given.place().of("DOF {}", i),
                                "defaultValue {} is outside its range; moved to the limit",
@@ -264,7 +265,8 @@ void XmlRobotReader::read_limits(const XmlElement& element, JointSpec& joint,
   const XmlElement low = element.expected("minValue"), high = element.expected("maxValue");
   joint.min = bounded(low, subject);
   joint.max = bounded(high, subject);
-  // some files write the limits in the direction of a DOF that the joint runs against
+  // some files write the limits for the DOF's direction although the joint moves in the opposite
+  // one
   repairs_.order(joint.min, joint.max, low.place().of(subject), {"minValue", "maxValue"});
 }
 
@@ -283,7 +285,7 @@ void XmlRobotReader::read_link(const XmlElement& element, ChainLinks& chain, Cha
   read_rule(element, place);
 }
 
-// --- what never collides ---
+// --- pairs that never collide ---
 
 void XmlRobotReader::read_rule(const XmlElement& link, ChainPlace place) {
   const auto rule = link.attribute("collisionRule");

@@ -9,7 +9,7 @@ namespace clench {
 
 namespace {
 
-/// A direction of length 1.
+/// A direction as a unit vector.
 Eigen::Vector3d direction(const XmlElement& element) {
   const Eigen::Vector3d v = element.vector();
   const double length = v.stableNorm();
@@ -33,7 +33,7 @@ double friction_of(const XmlElement& element, Repairs& repairs) {
   return friction ? not_negative(friction, repairs) : 0;
 }
 
-/// A length in meters; the original writes -1 for none.
+/// A length in meters; GraspIt! writes -1 for none.
 std::optional<double> length_of(const XmlElement& element, const char* name, Repairs& repairs) {
   const XmlElement child = element.child(name);
   if (!child) return {};
@@ -92,7 +92,7 @@ TendonWrapper read_wrapper(const XmlElement& element, const FindLink& find,
   return wrapper;
 }
 
-/// Tells of tendons that wrappers name and nobody has.
+/// Warns of unknown tendons named by wrappers.
 void check_names(const std::vector<XmlElement>& wrappers, const std::vector<TendonSpec>& tendons,
                  const Diagnostics& diagnostics) {
   std::vector<std::string> names;

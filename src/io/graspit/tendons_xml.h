@@ -1,4 +1,4 @@
-// Tendons, the posts they wrap around, and tactile sensors in an XML robot.
+// Reads tendons, the wrappers around which they run, and tactile sensors of an XML robot.
 #pragma once
 #include <functional>
 
@@ -8,15 +8,16 @@
 
 namespace clench {
 
-/// The caller's: the link at a place.   throws Error at the element when there is none
+/// Provided by the caller: the link at a place.   throws Error at the element if there is none
 using FindLink = std::function<int(const XmlElement& element, ChainPlace place)>;
 
-/// <tendon> and <tendonWrapper>, millimeters; they are kept, and `warn` is told that they do not act.
+/// <tendon> and <tendonWrapper>, in millimeters; they are stored, with a warning that they have no
+/// effect.
 /// throws Error  "hand.xml:31: tendon: expected at least 2 insertion points, got 1"
 void read_tendons(const XmlElement& robot, const FindLink& find, const Diagnostics& diagnostics,
                   Repairs& repairs, RobotSpec& out);
 
-/// The <filter> elements of a chain.
+/// Reads the <filter> elements of a chain.
 void read_tactile(const XmlElement& chain, int number, const FindLink& find,
                   const Diagnostics& diagnostics, Repairs& repairs, RobotSpec& out);
 

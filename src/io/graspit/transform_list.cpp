@@ -10,12 +10,12 @@ bool begins_transform(const Line& line) {
   return !text.empty() && std::string_view("tTrR").find(text.front()) != std::string_view::npos;
 }
 
-// files write six digits
+// files store six digits
 static constexpr double nearly_unit = 1e-4;
 
 Pose read_full_transform(const Line& line, std::string_view text, const Diagnostics& diagnostics) {
   text = trim(text.substr(0, text.find('#')));
-  // the brackets in their order, then the numbers between them
+  // find the brackets in order, then the numbers between them
   std::string shape;
   for (const char c : text)
     if (c == '(' || c == ')' || c == '[' || c == ']') shape += c;
@@ -48,7 +48,7 @@ static Eigen::Vector3d axis(const Line& line, int i) {
 }
 
 static Pose read_matrix(const Line& head, LineReader& lines, const Diagnostics& diagnostics) {
-  // nine numbers, wherever the lines end
+  // nine numbers, independent of line ends
   Eigen::Matrix3d R;
   Line line = head.before('#');
   int next = 1;
@@ -85,7 +85,7 @@ Pose read_transform(const Line& line, LineReader& lines, const Diagnostics& diag
 }
 
 Pose read_transform_list(LineReader& lines, const Diagnostics& diagnostics) {
-  std::optional<Pose> total;  // the only one is kept to the bit
+  std::optional<Pose> total;  // a single transform is kept bit-exactly
   while (lines.skip_to_full() && begins_transform(lines.peek())) {
     const Line line = lines.next();
     const Pose next = read_transform(line, lines, diagnostics);

@@ -38,7 +38,7 @@ Pose read_tagged_transform(const Line& line, LineReader& lines, const Diagnostic
     text = text.substr(0, text.find(closing));
   }
 
-  std::optional<Pose> total;  // the only one is kept to the bit
+  std::optional<Pose> total;  // a single transform is kept bit-exactly
   std::string_view rest = trim(text);
   while (!rest.empty()) {
     const size_t head = rest.find('>');
@@ -60,7 +60,7 @@ Pose read_tagged_transform(const Line& line, LineReader& lines, const Diagnostic
 Pose read_transform_of(const XmlElement& element, const Diagnostics& diagnostics) {
   const XmlElement transform = element.child("transform");
   if (!transform) return {};
-  std::optional<Pose> total;  // the only one is kept to the bit
+  std::optional<Pose> total;  // a single transform is kept bit-exactly
   for (const XmlElement& e : transform.children()) {
     std::string value = e.text();
     std::replace(value.begin(), value.end(), '\n', ' ');

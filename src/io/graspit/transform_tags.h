@@ -1,4 +1,4 @@
-// Transforms as the XML files write them, there and where they stand in a text file.
+// Transforms in XML elements, which also occur inside text files.
 #pragma once
 #include "clench/base/text.h"
 #include "clench/io/graspit/transform_list.h"
@@ -7,9 +7,9 @@
 
 namespace clench {
 
-/// What an element <tag>value</tag> of a transform says: translation "x y z" [mm], rotation
-/// "degrees axis", rotationMatrix (9 numbers), fullTransform "(w x y z)[x y z]".
-/// throws Error at the line when it is none of these
+/// The transform given by an element <tag>value</tag>: translation "x y z" [mm], rotation "degrees
+/// axis", rotationMatrix (9 numbers), fullTransform "(w x y z)[x y z]".
+/// throws Error at the line for other tags
 Pose read_transform_element(const Line& line, std::string_view tag, std::string_view value,
                             const Diagnostics& diagnostics = {});
 
@@ -19,8 +19,8 @@ Pose read_transform_element(const Line& line, std::string_view tag, std::string_
 Pose read_tagged_transform(const Line& line, LineReader& lines,
                            const Diagnostics& diagnostics = {});
 
-/// The child <transform> of an element, or identity when there is none.
-/// throws Error at the line of what stands in it and is no part of a transform
+/// The child <transform> of an element, or identity if there is none.
+/// throws Error at the line of any content that is not part of a transform
 Pose read_transform_of(const XmlElement& element, const Diagnostics& diagnostics);
 
 }  // namespace clench

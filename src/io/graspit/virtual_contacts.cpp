@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int max_chains = 1000;  // as of robots
+constexpr int max_chains = 1000;  // same limit as for robots
 
 // forces have no unit, torques per force are lengths
 Vector6d edge_in_meters(Vector6d edge) {
@@ -23,13 +23,13 @@ Vector6d edge_in_meters(Vector6d edge) {
   return edge;
 }
 
-/// What a file says of the place, as it says it: some of it twice.
+/// Redundant pose of a contact as stated in the file.
 struct StatedPose {
   Vector3d location, translation, normal;  // millimeters
   Eigen::Quaterniond rotation;
 };
 
-// the two ways to say it should agree to the digits that files hold
+// tolerances for the two redundant statements, by the digits that files contain
 constexpr double same_length = 0.01;  // [mm]
 constexpr double same_angle = 0.01;   // [rad]
 
@@ -44,12 +44,12 @@ Pose contact_pose(const StatedPose& place, const Place& subject, const Diagnosti
   return {place.rotation, place.translation * units::millimeter};
 }
 
-/// Where a file says that a contact is. `read` gives the whole number of a name from a minimum on.
+/// Chain and link of a contact in a file. `read` returns the integer with a given name and minimum.
 template <class Read>
 ChainPlace read_place(Read read) {
   const int chain = read("finger", -1);
   if (chain >= 0) return {chain, read("link", 0)};
-  // the palm has no links: files write -1 or anything
+  // the palm has no links: files write -1 or an arbitrary number
   read("link", std::numeric_limits<int>::min());
   return {};
 }
@@ -70,7 +70,7 @@ FrictionEdges read_edges(NumberReader& numbers, const std::string& what) {
   return edges;
 }
 
-/// `repairs`: null where a number < 0 says that the file is another one
+/// `repairs`: null to reject numbers < 0, which show that the file has the other layout
 double read_mu(NumberReader& numbers, const std::string& what, Repairs* repairs) {
   const double mu = numbers.number(what + ": friction coefficient");
   if (mu < 0 && !repairs)
@@ -112,7 +112,7 @@ VirtualContactSet read_vgr(const std::string& file, std::string text,
 
 // --- XML ---
 
-/// What is there counts, not what is declared.
+/// The actual number is used, not the declared one.
 void check_count(const XmlElement& declared, int given, const char* what, Repairs& repairs) {
   if (const std::string text = declared.text(); parse_integer(text) != given)
     repairs.add("count", declared.place().of(declared.name()),
@@ -176,7 +176,7 @@ VirtualContactSet read_xml(const std::string& name, const std::string& text,
 
 // --- writing ---
 
-/// The numbers of a contact as both formats write them.
+/// Numbers of a contact as text for both formats.
 struct Written {
   explicit Written(const Pose& X_LC, const FrictionEdges& friction) {
     const Eigen::Quaterniond& q = X_LC.rotation;
@@ -194,7 +194,7 @@ struct Written {
 };
 
 std::string plain_text(const VirtualContactSet& set) {
-  // the first line is the name, whatever it is, but no comment and only one line
+  // the first line is the name; it must not look like a comment or contain line ends
   std::string name = set.robot.empty() || set.robot.front() == '#' ? '_' + set.robot : set.robot;
   for (char& c : name)
     if (static_cast<unsigned char>(c) < ' ') c = '_';
@@ -316,7 +316,7 @@ static std::vector<ObjectContact> read_list(NumberReader& numbers, bool placed, 
 std::vector<ObjectContact> read_object_contacts(const fs::path& path, const ReadOptions& options) {
   return of_file([&] {
     const std::string text = read_text(path), file = path.filename().string();
-    // only one of the two layouts uses the numbers up, to the last one
+    // in only one of the two layouts the contacts use up all numbers
     LineReader bare_lines(file, text), lines(file, text);
     NumberReader bare_numbers(bare_lines), numbers(lines);
     try {
@@ -327,7 +327,7 @@ std::vector<ObjectContact> read_object_contacts(const fs::path& path, const Read
         return contacts;
       }
     } catch (const Error& error) {
-      // then it is the other one, whose errors are told
+      // not this layout; try the other one, and report its errors
       if (error.kind() != ErrorKind::input) throw;
     }
     Repairs repairs(options.diagnostics);

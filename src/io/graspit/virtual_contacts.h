@@ -1,4 +1,4 @@
-// Virtual contacts from and to files: the text files (.vgr) and the XML files of GraspIt!
+// Reads and writes virtual contacts: the text files (.vgr) and the XML files of GraspIt!
 #pragma once
 #include <filesystem>
 
@@ -7,47 +7,48 @@
 
 namespace clench {
 
-/// A file's virtual contacts. It names links by chain and number, of a robot that it does not know.
+/// Virtual contacts of a file. It identifies links by chain and number, without reference to a
+/// robot's links.
 struct VirtualContactSet {
-  std::string robot;                         ///< name of the hand that it was made for
+  std::string robot;                         ///< name of the hand for which it was made
   std::vector<ChainPlace> places;            ///< one per contact
-  std::vector<VirtualContactSpec> contacts;  ///< whose `link` says nothing
+  std::vector<VirtualContactSpec> contacts;  ///< their `link` is not set
 };
 
-/// As they are on a robot.
+/// The contacts with the links of a robot.
 /// throws Error  "contact 2: chain 0 of 'hand' has no link 7"
 std::vector<VirtualContactSpec> contacts_on(const RobotSpec& robot, VirtualContactSet set);
-/// A robot's, for a file.   name  of the robot
+/// Contacts of a robot, converted for a file.   name  of the robot
 VirtualContactSet contact_set(std::string name, const std::vector<Chain>& chains,
                               std::vector<VirtualContactSpec> contacts);
 
-/// `path` as find_file gives it; text or XML, by what stands in it.
+/// `path` as returned by find_file; the contents determine whether it is text or XML.
 /// throws Error  "hand.vgr:7: contact 1: friction edge 3: expected a number, got 'x'"
 VirtualContactSet read_virtual_contacts(const std::filesystem::path& path,
                                         const ReadOptions& options = {});
 
-/// The text of an .xml.
+/// The text of an .xml file.
 std::string virtual_contacts_xml(const VirtualContactSet& set);
 
-/// The text of a file of that name, .vgr or .xml.   throws Error when the ending is another one
+/// The text of a file of that name, .vgr or .xml.   throws Error if the ending is another one
 std::string virtual_contacts_text(const VirtualContactSet& set, const std::filesystem::path& path);
-/// throws Error as virtual_contacts_text, or when the file cannot be written
+/// throws Error as virtual_contacts_text, or if the file cannot be written
 void write_virtual_contacts(const VirtualContactSet& set, const std::filesystem::path& path);
 
-/// A contact on an object, as the original stores them.
+/// A contact on an object, as stored by GraspIt!
 struct ObjectContact {
   Pose X_OC;           ///< contact frame in the object
-  bool placed = true;  ///< false: the file leaves the point out, and X_OC is at the origin
+  bool placed = true;  ///< false: the file has no point for it, and X_OC is at the origin
   Eigen::Vector3d n_O = Eigen::Vector3d::UnitZ();  ///< unit normal
   double mu = 1;
   FrictionEdges edges;
 };
 
-/// Text: a count, then of each contact edges, quaternion, point, normal and coefficient. Files
-/// without the points, as the original writes them, are read too, with a warning.
+/// Text: a count, then for each contact edges, quaternion, point, normal and coefficient. Files
+/// without points, as written by GraspIt!, are accepted with a warning.
 std::vector<ObjectContact> read_object_contacts(const std::filesystem::path& path,
                                                 const ReadOptions& options = {});
-/// throws Error for a contact that is not placed, or when the file cannot be written
+/// throws Error for a contact without a point, or if the file cannot be written
 void write_object_contacts(const std::vector<ObjectContact>& contacts,
                            const std::filesystem::path& path);
 

@@ -11,7 +11,7 @@ namespace clench {
 
 namespace {
 
-/// A DOF counts in the unit of its first joint: rad or mm.
+/// Unit of a DOF, that of its first joint: rad or mm.
 double unit_of(const RobotSpec& robot, int dof) {
   return dof_slides(robot, dof) ? units::millimeter : 1.0;
 }
@@ -24,7 +24,7 @@ void read_dof_values(const Line& line, PlacedRobot& placed, const Diagnostics& d
   const RobotSpec& robot = placed.robot;
   const int dofs = static_cast<int>(robot.dofs.size());
   const bool plain = line.size() == dofs;
-  // one more a joint that may have broken away
+  // one additional number per joint that may have broken away
   int least = dofs;
   each_joint(robot, [&](const JointSpec& joint) {
     least += robot.dofs[joint.dof].kind == DofKind::breakaway;
@@ -33,7 +33,7 @@ void read_dof_values(const Line& line, PlacedRobot& placed, const Diagnostics& d
     diagnostics.repaired(line.place(), "expected {} numbers for the {} DOFs of {}, got {}; {}",
                          expected, dofs, robot.name, line.size(), made);
   };
-  // with joints that may break away nobody knows which numbers lack
+  // with breakaway joints it is ambiguous which numbers are missing
   const bool short_line = line.size() < dofs && least == dofs;
   if (!plain && !short_line && line.size() < least)
     line.fail("expected {} numbers for the {} DOFs of {}, got {}", least, dofs, robot.name,

@@ -68,7 +68,7 @@ Pose WldReader::any_pose() {
 }
 
 void WldReader::read_header() {
-  // comments, then a block; the first comment should name the program
+  // comments before the first block; the first comment should name the program
   const Line first = lines_.peek();
   const bool named = lower_case(first.text()).starts_with("#graspit!");
   if (!named && !lines_.skip_to_full())
@@ -117,7 +117,7 @@ void WldReader::read_body(Role role) {
   PlacedBody placed;
   placed.role = role;
   placed.body = cache_.named_body(std::string(line.text()), path_, line.place());
-  // an obstacle names its material, in most files
+  // in most files the material follows the file of an obstacle
   if (lines_.skip_to_full() && !begins_pose(lines_.peek())) {
     const Line material = lines_.peek();
     if (role == Role::obstacle) {

@@ -38,7 +38,7 @@ WorldSpec XmlWorldReader::read() {
   root_.check({.once = {"camera"}, .many = {"obstacle", "graspableBody", "robot", "connection"}},
               diagnostics());
   world_.source = path_.generic_string();
-  // elements that are unknown have been warned of
+  // unknown elements are already reported
   for (const XmlElement& e : root_.children()) {
     if (e.name() == "obstacle")
       read_body(e, Role::obstacle);

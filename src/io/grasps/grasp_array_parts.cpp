@@ -19,7 +19,7 @@ constexpr size_t any_columns = std::string::npos;
 
 // --- writing ---
 
-/// Rows of as many numbers; an empty row becomes NaN.
+/// Rows of equal length; an empty row becomes NaN.
 template <class RowOf>
 void add_rows(const std::vector<GraspSpec>& grasps, const char* name, size_t columns, RowOf row_of,
               NamedArrays& out) {
@@ -181,7 +181,7 @@ void add_named(const std::vector<GraspSpec>& grasps, NamedArrays& out) {
 
 // --- reading ---
 
-// row i; empty where a number is missing
+// row i; empty if a number is missing
 std::vector<double> row_at(const NpyArray& array, size_t i) {
   const size_t columns = array.shape.size() > 1 ? array.shape[1] : 1;
   const double* x = array.numbers.data() + i * columns;

@@ -1,5 +1,5 @@
-// Arrays of an .npz of grasps beside their poses and DOFs: joints, further postures, contacts, how
-// the grasps were measured, measures, notes and labels.
+// Arrays of an .npz file of grasps in addition to poses and DOFs: joints, further postures,
+// contacts, settings of the measurement, measures, notes and labels.
 #pragma once
 #include <map>
 #include <string>
@@ -12,16 +12,16 @@ namespace clench {
 
 using NamedArrays = std::map<std::string, NpyArray>;
 
-/// Can one array hold the joints of all grasps? They have the same joints, or none.
+/// True if one array can hold the joints of all grasps: each grasp has the same joints, or none.
 bool has_same_joints(const std::vector<GraspSpec>& grasps);
 
-/// Adds, for n grasps of d DOFs and j joints, those of these that any grasp has: `joints` n x j
-/// with `joint_names`, `joint_units` and `joint_offsets` (j); `pregrasp_poses` n x 7,
-/// `pregrasp_dofs` and `squeeze_dofs` n x d; `com` n x 3, `rho`, `largest_radius`,
-/// `gyration_radius`, `edges`, `soft`, `moduli` (n), `normal_force` n x m; of all contacts in a row
-/// `contact_grasps`, `contact_points`, `contact_normals`, `contact_mu`, `contact_torsion_radius`,
-/// `contact_links`; `hand_files`, `object_files`, `measure_NAME`, `info_NAME`, `label_NAME` (n).
-/// Missing numbers are NaN.
+/// Adds the following arrays for n grasps of d DOFs and j joints, if any grasp has such values:
+/// `joints` n x j with `joint_names`, `joint_units` and `joint_offsets` (j); `pregrasp_poses` n x
+/// 7, `pregrasp_dofs` and `squeeze_dofs` n x d; `com` n x 3, `rho`, `largest_radius`,
+/// `gyration_radius`, `edges`, `soft`, `moduli` (n), `normal_force` n x m; for the contacts of all
+/// grasps in sequence `contact_grasps`, `contact_points`, `contact_normals`, `contact_mu`,
+/// `contact_torsion_radius`, `contact_links`; `hand_files`, `object_files`, `measure_NAME`,
+/// `info_NAME`, `label_NAME` (n). Missing numbers are NaN.
 void add_array_parts(const std::vector<GraspSpec>& grasps, NamedArrays& out);
 
 /// Reads the same arrays, grasp by grasp.
@@ -29,9 +29,9 @@ class ArrayParts {
  public:
   /// throws  Error  "g.npz: joints: expected 3 x j numbers, got 2 x 5" for another shape
   ArrayParts(const std::string& file, const NamedArrays& arrays, size_t grasps, size_t dofs);
-  /// Sets the parts of grasp i, whose pose and DOFs are known.
+  /// Sets the parts of grasp i, whose pose and DOFs must be set.
   void read(size_t i, GraspSpec& out) const;
-  /// Is it an array that this class reads?
+  /// True for the arrays that this class reads.
   static bool knows(const std::string& name);
 
  private:
@@ -46,7 +46,7 @@ class ArrayParts {
   const std::string& file_;
   const NamedArrays& arrays_;
   size_t count_, dofs_;
-  std::vector<std::vector<size_t>> contacts_;  // numbers of those of each grasp
+  std::vector<std::vector<size_t>> contacts_;  // contact indices per grasp
 };
 
 /// "3 x 4", "a single value", "2 texts"

@@ -62,7 +62,7 @@ Pose pose_of_matrix(const double* m, const std::string& place) {
   return {Eigen::Quaterniond(R).normalized(), {m[3], m[7], m[11]}};
 }
 
-// of row i; `place` ends in the index, as in "g.npz: poses[3]"
+// pose in row i; `place` ends in the index, as in "g.npz: poses[3]"
 static const double* pose_values(const NpyArray& poses, size_t i, size_t count,
                                  const std::string& place) {
   const double* x = poses.numbers.data() + i * count;
@@ -124,8 +124,8 @@ void read_grasp_arrays(const std::string& file, std::string_view bytes, const Gr
                  *hands = of_grasps("hands", true), *objects = of_grasps("objects", true),
                  *planners = of_grasps("planners", true);
   const ArrayParts parts(file, arrays, n, d);
-  // a file of smaller numbers, or a compressed one, counts as the same one of float64, up to four
-  // times its size: its grasps take as much
+  // compressed files, and files of smaller numbers, are budgeted by their size as float64, up to
+  // four times the file: their grasps take as much memory
   size_t numbers = 0;
   for (const NpyArray* a : {poses, dofs}) numbers += a ? a->numbers.size() : 0;
   const size_t size = std::clamp(8 * numbers, bytes.size(), 4 * bytes.size());

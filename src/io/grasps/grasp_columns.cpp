@@ -18,7 +18,7 @@ constexpr const char* pregrasp_columns[pregrasp_numbers] = {
     "pregrasp x [m]", "pregrasp y [m]", "pregrasp z [m]", "pregrasp qw",
     "pregrasp qx",    "pregrasp qy",    "pregrasp qz"};
 
-/// A part beside the pose of the pregrasp.
+/// Parts other than the pose of the pregrasp.
 enum class GraspPart {
   com_x,
   com_y,
@@ -47,7 +47,7 @@ constexpr const char* part_columns[] = {"com x [m]",
 double GraspSpec::*const part_lengths[] = {&GraspSpec::rho, &GraspSpec::largest_radius,
                                            &GraspSpec::gyration_radius};
 
-// numbers with spaces between them
+// numbers separated by blanks
 std::string spaced_numbers(const std::vector<double>& numbers) {
   std::string out;
   for (const double x : numbers) out += (out.empty() ? "" : " ") + real_text(x);
@@ -56,7 +56,7 @@ std::string spaced_numbers(const std::vector<double>& numbers) {
 
 std::string vector_list(const Eigen::Vector3d& v) { return real_list({v.x(), v.y(), v.z()}); }
 
-// as the `points` of JSON lines
+// like the `points` of JSON lines
 std::string contacts_text(const GraspSpec& g) {
   std::string out;
   for (size_t i = 0; i < g.points.size(); ++i) {
@@ -70,7 +70,7 @@ std::string contacts_text(const GraspSpec& g) {
   return "[" + out + "]";
 }
 
-// was it measured, or are these the numbers of a grasp that was not?
+// false if all settings have the values of a grasp that was not measured
 bool is_measured(const GraspSpec& g) {
   const GraspSpec plain;
   return !g.points.empty() || g.com != plain.com || g.rho != 1 || g.largest_radius != 1 ||

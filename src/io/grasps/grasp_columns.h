@@ -1,5 +1,5 @@
-// Columns of a table of grasps that hold one part of a grasp each: the pose of its pregrasp, how it
-// was measured, its contacts.
+// Columns of a table of grasps for single parts of a grasp: the pose of its pregrasp, settings of
+// its measurement, its contacts.
 #pragma once
 #include <string>
 #include <string_view>
@@ -10,21 +10,21 @@
 
 namespace clench {
 
-/// Names of these columns, in their order: "pregrasp x [m]", ..., "contacts".
+/// Names of these columns in order: "pregrasp x [m]", ..., "contacts".
 std::vector<std::string> part_column_names();
 
-/// Cells of a grasp by the names of their columns, as plain text; parts that it lacks have none.
+/// Cells of a grasp by names of columns, as plain text; without those of missing parts.
 std::vector<std::pair<std::string, std::string>> part_cells(const GraspSpec& grasp);
 
 /// Reads the cells of one grasp.
 class PartReader {
  public:
-  /// column  its place among part_column_names()
+  /// column  index in part_column_names()
   /// place   for errors: "g.csv:3: rho [m]"
   /// throws  Error  "g.csv:3: rho [m]: expected a number > 0, got '-1'"
   void read(size_t column, std::string_view text, const std::string& place);
-  /// Adds what was read; call once, after the DOFs of pregrasps.
-  /// throws  Error where the pose of a pregrasp is incomplete
+  /// Adds the parts to the grasp; call once, after the DOFs of the pregrasp are set.
+  /// throws  Error if the pose of the pregrasp is incomplete
   void finish(GraspSpec& grasp, const std::string& place);
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 using NamedNumbers = std::map<std::string, double>;
 
-constexpr double matrix_angle = 1e-6, matrix_length = 1e-9;  // [rad], of a length or meter
+constexpr double matrix_angle = 1e-6, matrix_length = 1e-9;  // [rad], and per length or meter
 
 bool same_pose(const std::optional<Pose>& a, const std::optional<Pose>& b, bool exact) {
   if (a.has_value() != b.has_value()) return false;
@@ -23,7 +23,7 @@ bool same_pose(const std::optional<Pose>& a, const std::optional<Pose>& b, bool 
          off.position.norm() < matrix_length * std::max(1.0, a->position.norm());
 }
 
-// numbers that are not finite are left out
+// numbers that are not finite are skipped
 std::string numbers_differ(const char* what, const NamedNumbers& a, const NamedNumbers& back) {
   for (const auto& [name, x] : a) {
     if (!std::isfinite(x)) continue;
@@ -53,7 +53,7 @@ bool same_units(const GraspSpec& a, const GraspSpec& back) {
   return true;
 }
 
-// a table has the DOFs in the order of its columns
+// the DOFs sorted by name, because a table has them in the order of its columns
 GraspSpec by_names(const GraspSpec& g) {
   GraspSpec out;
   std::vector<size_t> order(g.dofs.size());
@@ -68,7 +68,7 @@ GraspSpec by_names(const GraspSpec& g) {
   return out;
 }
 
-// isaac_grasp lists joints that follow behind the DOFs
+// isaac_grasp lists following joints after the DOFs
 bool same_dofs(const GraspSpec& a, const GraspSpec& back, bool more) {
   if (back.dofs.size() < a.dofs.size() || back.dof_names.size() < a.dof_names.size()) return false;
   if (!more && (back.dofs.size() > a.dofs.size() || back.dof_names.size() > a.dof_names.size()))
@@ -164,13 +164,14 @@ std::string difference(const GraspSpec& a, const GraspSpec& back, GraspFormat fo
   for (const auto& [name, text] : identity_texts)
     if (a.*text != back.*text) return name;
   auto labels = a.labels;
-  // an array of texts has empty ones where a grasp has none
+  // an array of texts contains an empty text if a grasp has none
   if (format == npz) std::erase_if(labels, [](const auto& one) { return one.second.empty(); });
   for (const std::string& what :
        {numbers_differ("measure", a.measures, back.measures),
         numbers_differ("note", a.info, back.info), labels_differ(labels, back.labels)})
     if (!what.empty()) return what;
-  // hands with different joints, or in another order, do not fit into one table: a warning says so
+  // hands with different joints, or a different order of joints, do not fit into one table, which
+  // is reported as a warning
   const auto is_finite = [](double q) { return std::isfinite(q); };
   const bool without = (format == csv || format == npz) && back.joints.empty() &&
                        std::ranges::all_of(a.joints, is_finite);

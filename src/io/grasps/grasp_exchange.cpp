@@ -17,7 +17,7 @@ namespace clench {
 
 namespace {
 
-/// A value of the file, and how messages call it.
+/// A value of the file, with its name in messages.
 struct Value {
   ValueNode node;
   const std::string& file;
@@ -77,7 +77,7 @@ struct Value {
            q[3]);
     return {*unit, {p[0], p[1], p[2]}};
   }
-  /// Keys of the map that are not known.
+  /// Unknown keys of the map.
   std::vector<std::string> unknown(const std::vector<std::string>& known) const {
     std::vector<std::string> out;
     for (size_t i = 0; i < node.size(); ++i)
@@ -100,7 +100,7 @@ void warn_of_scale(const std::string& file, double scale, const ReadOptions& opt
         scale);
 }
 
-// the last part of a path, as USD and files have them
+// the last part of a path, for USD paths and files
 std::string last_part(const std::string& path) {
   return path.substr(path.rfind('/') == std::string::npos ? 0 : path.rfind('/') + 1);
 }
@@ -112,7 +112,7 @@ std::string named_list(const std::vector<std::string>& names, const std::vector<
   return out.empty() ? " {}\n" : "\n" + out;
 }
 
-// their labels "name", where all differ; else grasp_0 and so on
+// the labels "name" if all grasps have different ones, otherwise grasp_0 and so on
 std::vector<std::string> grasp_names(const std::vector<GraspSpec>& grasps) {
   std::vector<std::string> out;
   std::set<std::string> known;
@@ -157,7 +157,7 @@ std::string text_list(const std::vector<std::string>& texts) {
 std::string isaac_grasp_text(const std::vector<GraspSpec>& grasps, const std::string& file,
                              const WriteOptions& options) {
   check_writable(grasps, file, true, true);
-  // contents of the list are not losses
+  // contents of the list itself are not reported as losses
   std::vector<GraspSpec> rest = grasps;
   for (GraspSpec& g : rest) {
     g.info.erase("confidence");
@@ -219,7 +219,7 @@ GraspSpec read_isaac_grasp(const Value& one, const ReadOptions& options) {
   g.X_OH =
       one.pose(one.get("position").numbers(3), {turn.get("w").number(), xyz[0], xyz[1], xyz[2]});
   if (one.has("confidence")) g.info["confidence"] = one.get("confidence").number();
-  // without it the hand keeps its DOFs
+  // optional: without it the DOFs of the hand are unchanged
   if (one.has(position_key))
     each_dof(one.get(position_key), [&](std::string name, double x) {
       g.dof_names.push_back(std::move(name));
@@ -252,7 +252,7 @@ void read_isaac_grasps(const ValueTree& tree, const std::string& file, GraspColl
     format.refuse("'isaac_grasp'");
   if (const auto version = top.get("format_version"); parse_number(version.text()) != 1.0)
     version.refuse("version 1.0");
-  // the frames by the names of ROS's documentation, or those of Isaac Sim's Grasp Editor
+  // the frames by the names in the documentation of ROS, or those of Isaac Sim's Grasp Editor
   const auto frame = [&](const char* key, const char* link_key) {
     return last_part(top.text_at(top.has(key) ? key : link_key));
   };
@@ -280,7 +280,7 @@ void read_isaac_grasps(const ValueTree& tree, const std::string& file, GraspColl
     g.object_file = object_file;
     g.labels["name"] = grasps.node.key(i);
     list.add(std::move(g));
-    if (told) continue;  // of the first grasp that has some
+    if (told) continue;  // of the first grasp with DOFs
     const auto unused =
         one.unknown({"position", "orientation", "confidence", position_key, pregrasp_key});
     warn_of_unused(one.place(), unused, options);
@@ -293,7 +293,7 @@ void read_isaac_grasps(const ValueTree& tree, const std::string& file, GraspColl
 std::string graspgen_text(const std::vector<GraspSpec>& grasps, const std::string& file,
                           const WriteOptions& options) {
   check_writable(grasps, file, false, true);
-  // contents of the list are not losses
+  // contents of the list itself are not reported as losses
   std::vector<GraspSpec> rest = grasps;
   for (GraspSpec& g : rest) {
     for (const char* held : {"scale", "object_in_gripper"}) g.info.erase(held);

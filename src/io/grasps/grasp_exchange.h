@@ -1,6 +1,6 @@
-// Lists of grasps as other programs exchange them: isaac_grasp (NVIDIA Isaac Sim and ROS),
-// GraspGen, MultiGripperGrasp. All have the pose of the hand's base in the object's frame [m] and
-// DOFs in [rad or m].
+// Lists of grasps in formats of other programs: isaac_grasp (NVIDIA Isaac Sim and ROS), GraspGen,
+// MultiGripperGrasp. All contain the pose of the hand's base in the object's frame [m] and DOFs in
+// [rad or m].
 #pragma once
 #include "clench/io/grasps/grasp_writing.h"
 #include "clench/io/text/grasp_sink.h"
@@ -9,12 +9,12 @@
 
 namespace clench {
 
-/// YAML of one hand and one object: position, orientation {w, xyz}, cspace_position,
-/// pregrasp_cspace_position by names of DOFs, and confidence: the note of that name, else epsilon
-/// within [0, 1], else 1.
-/// Grasps are called by their labels "name". Frames are also read by the names of Isaac Sim's Grasp
-/// Editor, object_frame_link and gripper_frame_link, and the files and the scale of GraspDataGen.
-/// throws Error when a grasp has no pose, or DOFs without names, or hands or objects differ
+/// YAML for one hand and one object: position, orientation {w, xyz}, cspace_position,
+/// pregrasp_cspace_position by names of DOFs, and confidence: the note of that name, otherwise
+/// epsilon clamped to [0, 1], otherwise 1. Grasps are named by their labels "name". The names of
+/// the frames in Isaac Sim's Grasp Editor, object_frame_link and gripper_frame_link, are read, too,
+/// and so are the files and the scale of GraspDataGen.
+/// throws Error if a grasp has no pose, or DOFs without names, or hands or objects differ
 /// source  Isaac ROS documentation, "Isaac Grasp File", format 1.0; Isaac Sim documentation, "Grasp
 ///         Editor"; NVlabs GraspDataGen
 std::string isaac_grasp_text(const std::vector<GraspSpec>& grasps, const std::string& file,
@@ -22,18 +22,20 @@ std::string isaac_grasp_text(const std::vector<GraspSpec>& grasps, const std::st
 void read_isaac_grasps(const ValueTree& tree, const std::string& file, GraspCollector& list,
                        const ReadOptions& options);
 
-/// JSON of one object: its file and scale, 4 x 4 transforms, and which of them hold it: the note
-/// "object_in_gripper", else those with epsilon > 0 that do not collide.
+/// JSON for one object: its file and scale, 4 x 4 transforms, and for each whether it holds the
+/// object: the note "object_in_gripper", otherwise true if epsilon > 0 and the grasp does not
+/// collide.
 /// source  NVlabs GraspGen, docs/GRASP_DATASET_FORMAT.md, version 1.0.0
 std::string graspgen_text(const std::vector<GraspSpec>& grasps, const std::string& file,
                           const WriteOptions& options);
 void read_graspgen(const ValueTree& tree, const std::string& file, GraspCollector& list,
                    const ReadOptions& options);
 
-/// JSON of one gripper and one object: poses x y z qw qx qy qz, and dofs in the order of
-/// "dof_names", a key of our own; without it the DOFs have no names. Results of tests become notes.
+/// JSON for one gripper and one object: poses x y z qw qx qy qz, and dofs in the order of
+/// "dof_names", a key added by Clench; without it the DOFs have no names. Results of tests become
+/// notes.
 /// source  IRVLUTD isaac_sim_grasping, docs/grasp_data_format.md, and managers.py, which reads
-/// "object_id"
+///         "object_id"
 std::string multigripper_text(const std::vector<GraspSpec>& grasps, const std::string& file,
                               const WriteOptions& options);
 void read_multigripper(const ValueTree& tree, const std::string& file, GraspCollector& list,

@@ -33,7 +33,7 @@ static constexpr std::pair<const char*, std::string GraspSpec::*> text_columns[]
 
 static std::string text_cell(const std::string& text) { return text.empty() ? "" : csv_cell(text); }
 
-// a number that is not finite counts as unknown
+// a number that is not finite is written as unknown
 static std::string number_cell(double x) { return std::isfinite(x) ? real_text(x) : ""; }
 
 // a seed and other counts are integers
@@ -41,10 +41,10 @@ static std::string note_cell(double x) {
   return x == std::floor(x) && std::abs(x) < 9e15 ? fmt::format("{:.0f}", x) : number_cell(x);
 }
 
-// units that are not known, of each
+// for values of unknown unit
 static constexpr const char* any_unit = "rad or m";
 
-/// "dof NAME [rad]" of each value, or "dof_1 [rad]", in their order.
+/// "dof NAME [rad]" of each value, or "dof_1 [rad]", in order.
 static std::vector<std::string> value_columns(const std::string& kind, size_t count,
                                               const std::vector<std::string>& names,
                                               const std::vector<std::string>& units) {
@@ -73,7 +73,7 @@ static void add_joints(const GraspSpec& g, Cells& out) {
   add_values("joint_offset", g.joint_offsets, g.joint_names, g.joint_units, out);
 }
 
-/// Values of DOFs and joints, in their order.
+/// Values of DOFs and joints in order.
 static Cells posture_cells(const GraspSpec& g, bool with_joints) {
   Cells out;
   add_values("dof", g.dofs, g.dof_names, g.dof_units, out);
@@ -86,7 +86,7 @@ static Cells posture_cells(const GraspSpec& g, bool with_joints) {
   return out;
 }
 
-/// Are the joints of all hands in one order? A table has one for all rows.
+/// True if the joints of all hands have a common order: a table has one order for all rows.
 static bool is_one_joint_order(const std::vector<GraspSpec>& grasps) {
   std::map<std::string, size_t> places;
   for (const GraspSpec& g : grasps) {
@@ -137,7 +137,7 @@ std::string grasp_table_text(const std::vector<GraspSpec>& grasps, const std::st
   const auto add = [&](const std::string& column) {
     if (known.insert(column).second) columns.push_back(column);
   };
-  // DOFs and joints in their order, parts in theirs; then the rest by name
+  // DOFs and joints in order, parts in order; then the rest by name
   for (const bool of_dofs : {true, false})
     for (const GraspSpec& g : grasps)
       for (const auto& [column, cell] : posture_cells(g, with_joints))
@@ -189,16 +189,16 @@ enum class ColumnRole {
   part
 };
 
-/// A column, its role, and the name in it: "dof thumb [rad]" is the DOF "thumb", in rad.
+/// A column with its role and its key: "dof thumb [rad]" is the DOF "thumb", in rad.
 struct Column {
   std::string name = {};
   ColumnRole role = ColumnRole::unused;
   std::string key = {}, unit = {};
   bool numbered = false;  ///< a joint without a name
-  size_t number = 0;      ///< of a part of the pose or of the grasp, or of a text
+  size_t number = 0;      ///< index of the pose component, part or text
 };
 
-// "thumb [rad]" as name and unit
+// splits "thumb [rad]" into name and unit
 void split_unit(Column& column) {
   const size_t bracket = column.key.rfind(" [");
   if (!column.key.ends_with(']') || bracket == std::string::npos) return;
@@ -206,7 +206,7 @@ void split_unit(Column& column) {
   column.key.resize(bracket);
 }
 
-// " thumb [rad]" or "_1 [rad]", behind the kind of value
+// splits " thumb [rad]" or "_1 [rad]", the text after the kind of value
 void split_name(Column& column) {
   split_unit(column);
   column.numbered = column.key.starts_with('_');
@@ -273,7 +273,7 @@ class TableReader {
       options.diagnostics.warn(Place(file), "columns {} are not used", name_list(unused));
   }
 
-  /// Are there fewer cells than columns, or is the last one the beginning of a number?
+  /// True if there are fewer cells than columns, or the last cell may be an incomplete number.
   bool lacks_cells(const CsvRecord& record) const {
     const std::string& last = record.cells.back().text;
     return record.cells.size() < columns_.size() ||
@@ -380,7 +380,7 @@ class TableReader {
     // columns may differ only in their units
     check_dof_names(place + ": DOF", dofs);
     check_dof_names(place + ": DOF", numbered);
-    // in their order from the first on
+    // numbered from 1 in order
     for (size_t i = 0; i < numbered.size(); ++i)
       if (parse_integer(numbered[i]) != static_cast<int>(i) + 1)
         fail("{}: expected a column dof_{}, got dof_{}", place, i + 1, excerpt(numbered[i]));
@@ -428,7 +428,7 @@ static void warn_of_cut_row(const std::string& file, const CsvRecord& record,
                            in_quotes(record.cells.front().text));
 }
 
-/// A last row with all cells is read; without a line end its last cell may be the beginning of one.
+/// Warns of a last row that has all cells but no line end: its last cell may be incomplete.
 static void warn_of_open_row(const std::string& file, size_t rows, const CsvRecord& record,
                              const CsvReader& reader, const ReadOptions& options) {
   if (rows == 0 || !reader.ends_in_open_line()) return;
@@ -445,14 +445,14 @@ void read_grasp_table(const std::string& file, std::string_view text, const Gras
   while (more && record.is_empty()) more = reader.next(record);
   if (!more) fail("{}: expected names of columns, got an empty file", file);
   GraspCollector list(file, text.size(), sink);
-  // a column is kept with its name, role and key
+  // a column is stored with name, role and key
   size_t names = 0;
   for (const CsvCell& cell : record.cells) names += sizeof(Column) + 3 * cell.text.size() + 200;
   list.budget().take(names);
   const TableReader table(file, record, options);
   // a row has at least the commas between the numbers of a pose
   list.expect(text.size() / std::size(pose_columns));
-  // a program that was killed, or a full disk, leaves the beginning of a row
+  // a killed program or a full disk leaves an incomplete row
   size_t rows = 0;
   const auto is_cut = [&] { return rows > 0 && reader.ends_in_open_line(); };
   for (;; ++rows) {

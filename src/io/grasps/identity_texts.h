@@ -1,4 +1,5 @@
-// The texts by which a grasp in a file names what it was measured of, and with.
+// Texts with which a grasp in a file identifies its hand, its object and the settings of its
+// measurement.
 #pragma once
 #include <string>
 #include <utility>
@@ -7,7 +8,7 @@
 
 namespace clench {
 
-/// Names in JSON lines and columns of tables; arrays of .npz have an s behind them.
+/// Names in JSON lines and columns of tables; the names of .npz arrays have an s appended.
 inline constexpr std::pair<const char*, std::string GraspSpec::*> identity_texts[] = {
     {"hand_fingerprint", &GraspSpec::hand_fingerprint},
     {"object_fingerprint", &GraspSpec::object_fingerprint},

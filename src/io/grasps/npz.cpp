@@ -12,7 +12,7 @@
 
 namespace clench {
 
-static constexpr size_t max_indices = 32;  // as NumPy
+static constexpr size_t max_indices = 32;  // limit of NumPy
 static constexpr std::string_view npy_mark = "\x93NUMPY";
 
 static std::string npy_bytes(const NpyArray& array) {
@@ -82,7 +82,7 @@ static double read_number(ByteReader& reader, char kind, size_t size) {
                      : next_number<uint64_t>(reader);
 }
 
-// what stands behind 'key': in the head, up to the comma that ends it
+// value of 'key': in the header, up to the comma that ends it
 static std::string_view head_value(std::string_view head, std::string_view key) {
   const size_t at = head.find(key);
   if (at == std::string_view::npos) return {};
@@ -109,7 +109,7 @@ static std::vector<size_t> read_shape(const std::string& place, std::string_view
   return out;
 }
 
-/// Numbers that an array of the shape holds; `bytes` + 1 for more than those.
+/// Number of elements of an array with this shape; `bytes` + 1 if there are more.
 static size_t count_of(const std::vector<size_t>& shape, size_t bytes) {
   if (std::ranges::find(shape, size_t{0}) != shape.end()) return 0;
   size_t count = 1;
@@ -120,12 +120,12 @@ static size_t count_of(const std::vector<size_t>& shape, size_t bytes) {
   return count;
 }
 
-/// Reorders an array of Fortran's order, whose first index runs fastest.
+/// Reorders an array stored in Fortran order, in which the first index varies fastest.
 static void make_last_index_fastest(NpyArray& array, MemoryBudget& budget) {
   const size_t count = array.is_text ? array.texts.size() : array.numbers.size();
   if (count == 0 || array.shape.size() < 2) return;
   const size_t indices = array.shape.size();
-  // places in the file between neighbors along each index
+  // distances in the file between neighbors along each index
   std::vector<size_t> strides(indices, 1), index(indices, 0);
   for (size_t k = 1; k < indices; ++k) strides[k] = strides[k - 1] * array.shape[k - 1];
   budget.take(count * (array.is_text ? sizeof(std::string) : sizeof(double)));

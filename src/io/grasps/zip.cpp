@@ -13,8 +13,8 @@ namespace clench {
 
 static constexpr uint32_t local_mark = 0x04034b50, entry_mark = 0x02014b50, end_mark = 0x06054b50;
 static constexpr int stored = 0, deflated = 8;
-static constexpr int raw_window = -15;                  // zlib's data without head and checksum
-static constexpr size_t piece_bytes = size_t{1} << 20;  // between two looks at the request to stop
+static constexpr int raw_window = -15;  // raw deflate data, without header and checksum
+static constexpr size_t piece_bytes = size_t{1} << 20;  // between two checks for a request to stop
 
 static uint32_t crc32_of(std::string_view bytes) {
   uLong crc = crc32(0, nullptr, 0);
@@ -28,7 +28,7 @@ static uint32_t crc32_of(std::string_view bytes) {
 
 namespace {
 
-/// State of zlib, released at the end.
+/// State of zlib, released by the destructor.
 struct ZlibStream {
   explicit ZlibStream(int (*end)(z_stream*)) : release(end) {}
   ZlibStream(const ZlibStream&) = delete;
@@ -70,13 +70,13 @@ static std::string deflated_bytes(const std::string& contents) {
   return out;
 }
 
-/// What the head of a file and its entry in the directory share: from the version to the lengths of
-/// name and extra fields.
+/// Fields shared by the header of a file and its entry in the directory: from the version to the
+/// lengths of name and extra fields.
 static std::string shared_fields(const std::string& name, int method, uint32_t crc, size_t packed,
                                  size_t size) {
   const bool is_plain = std::ranges::all_of(name, [](unsigned char c) { return c < 128; });
   std::string out;
-  // version 2.0, a name in UTF-8, the first of January 1980
+  // version 2.0, a name in UTF-8, January 1, 1980
   for (const int x : {20, is_plain ? 0 : 1 << 11, method, 0, 33})
     append_little_endian(out, static_cast<uint16_t>(x));
   append_little_endian(out, crc);
@@ -124,7 +124,7 @@ std::string zip_bytes(const std::map<std::string, std::string>& files, bool comp
 
 // --- reading ---
 
-// the directory's end: 22 bytes, and a comment that is perhaps there
+// the end record of the directory: 22 bytes and an optional comment
 static size_t end_of_directory(const std::string& archive, std::string_view bytes) {
   for (size_t back = 22; back <= std::min<size_t>(bytes.size(), 22 + 65535); ++back)
     if (ByteReader(bytes.substr(bytes.size() - back)).next<uint32_t>() == end_mark)
@@ -132,7 +132,7 @@ static size_t end_of_directory(const std::string& archive, std::string_view byte
   fail("{}: expected a zip archive of arrays, got other bytes", archive);
 }
 
-/// The bytes of a file behind its head at `place`.
+/// The bytes of a file after its header at `place`.
 static std::string_view bytes_at(std::string_view bytes, size_t place, size_t count,
                                  const std::string& archive, const std::string& name) {
   ByteReader local(bytes.substr(std::min(place, bytes.size())));
@@ -151,7 +151,7 @@ std::vector<ZipEntry> zip_entries(const std::string& archive, std::string_view b
   tail.next<uint32_t>();
   const size_t start = tail.next<uint32_t>();
   std::vector<ZipEntry> out;
-  size_t left = bytes.size();  // of the archive for the files to come
+  size_t left = bytes.size();  // of the archive for the remaining files
   ByteReader entries(bytes.substr(std::min(start, bytes.size())));
   for (size_t i = 0; i < count; ++i) {
     if (entries.left() < 46 || entries.next<uint32_t>() != entry_mark)
@@ -188,8 +188,8 @@ std::vector<ZipEntry> zip_entries(const std::string& archive, std::string_view b
   return out;
 }
 
-/// Fills `out`, which is a byte longer, with the contents of a deflated file.
-/// returns  is the size right, and is no byte of the file left over?
+/// Fills `out`, which is one byte longer, with the contents of a deflated file.
+/// returns  true if the size is right and all bytes of the file were used
 static bool inflate_into(std::string_view packed, std::string& out) {
   ZlibStream stream(inflateEnd);
   if (inflateInit2(&stream.state, raw_window) != Z_OK) fail("out of memory for compressed arrays");
@@ -210,7 +210,7 @@ static bool inflate_into(std::string_view packed, std::string& out) {
 std::string_view Unzipper::contents_of(const ZipEntry& entry, const std::string& place) {
   std::string_view out = entry.packed;
   if (entry.is_deflated) {
-    // the buffer is used again for the next file
+    // the buffer is reused for the next file
     if (entry.size > buffer_.capacity()) {
       budget_.take(entry.size - buffer_.capacity());
       std::string().swap(buffer_);

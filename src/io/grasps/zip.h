@@ -1,4 +1,4 @@
-// Zip archives of .npy files in memory, stored or deflated, as NumPy writes them.
+// Zip archives of .npy files in memory, stored or deflated, as written by NumPy.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -20,24 +20,24 @@ struct ZipEntry {
 };
 
 /// files     by their names without the ending .npy
-/// compress  deflates files that become smaller by it; else all are stored
-/// The same files give the same bytes (compressed ones with the same version of zlib).
-/// throws    Error when there are more than 65,000 files or 4 GB
+/// compress  deflates files that become smaller by it; the others are stored
+/// Equal files give equal bytes (compressed ones with the same version of zlib).
+/// throws    Error if there are more than 65,000 files or 4 GB
 /// source    PKWARE's APPNOTE (zip); RFC 1951 (deflate)
 std::string zip_bytes(const std::map<std::string, std::string>& files, bool compress);
 
-/// The files of an archive, in the order of its directory. No two share bytes.
+/// The files of an archive in the order of its directory. No two share bytes.
 /// throws  Error "g.npz: poses: the array shares bytes of the archive with others"
 std::vector<ZipEntry> zip_entries(const std::string& archive, std::string_view bytes);
 
-/// Contents of the files of an archive, one after the other, in one buffer.
+/// Decompresses the files of an archive one by one into one buffer.
 class Unzipper {
  public:
   explicit Unzipper(MemoryBudget& budget) : budget_(budget) {}
 
-  /// The contents; they last until the next call.
+  /// The contents, valid until the next call.
   /// place   of the file, for errors
-  /// throws  Error when they are broken, or take more memory than the budget has left
+  /// throws  Error if they are corrupt, or take more memory than the budget has left
   std::string_view contents_of(const ZipEntry& entry, const std::string& place);
 
  private:

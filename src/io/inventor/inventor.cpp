@@ -10,7 +10,7 @@ namespace {
 
 constexpr int max_inventor_triangles = 2'000'000;
 
-/// Gathers the triangles of one shape.
+/// Collects the triangles of one shape.
 class ShapeTriangles {
  public:
   ShapeTriangles(const InventorNode& shape, const InventorState& state, double unit,
@@ -19,7 +19,7 @@ class ShapeTriangles {
     surface_.add = [this](std::span<const InventorVector> face, int color) { add(face, color); };
   }
 
-  /// returns  is it a shape that has triangles?
+  /// returns  true if it is a shape that has triangles
   bool gather() {
     return list_faces(shape_, state_, surface_) || cut_shape(shape_, state_, surface_);
   }
@@ -46,7 +46,7 @@ void ShapeTriangles::add(std::span<const InventorVector> face, int color) {
 }
 
 void ShapeTriangles::add_triangle(const std::array<InventorVector, 3>& corners, int color) {
-  // those that are dropped take as long
+  // dropped triangles count, too, because they take the same time
   if (builder_.report.triangles_read >= max_inventor_triangles)
     fail("expected at most {} triangles", max_inventor_triangles);
   std::array<Eigen::Vector3d, 3> points;

@@ -6,12 +6,12 @@
 
 namespace clench {
 
-/// Triangles of the file and of those it includes; coordinates count as millimeters, unless
-/// options.mesh_scale says otherwise. Lines, points
-/// and text have none. `text` is what the file holds, its lines ended by '\n'. A file of frames
-/// only gives an empty mesh.
-/// throws Error  "box.iv:31: ..." when the file or one that it includes is malformed, missing or
-/// includes itself
+/// Triangles of the file and of the files that it includes; coordinates are in millimeters, unless
+/// options.mesh_scale is set. Lines, points and text contain no triangles. `text` holds the
+/// contents of the file, with lines ended by '\n'. A file that contains only frames gives an empty
+/// mesh.
+/// throws Error  "box.iv:31: ..." if the file or an included one is malformed, missing or includes
+/// itself
 Geometry read_inventor(const std::filesystem::path& path, const std::string& text,
                        const ReadOptions& options);
 

@@ -26,7 +26,7 @@ class FaceLister {
     throw Error(fmt::format("{}: ", shape_.type->name) +
                 fmt::format(format, std::forward<Args>(args)...));
   }
-  /// the node of that type in a field; null when there is none
+  /// the node of that type in a field; null if there is none
   const InventorNode* part(const char* field, std::string_view type) const;
   void set_points(std::span<const float> numbers, int width);
   InventorVector point(int i) const;
@@ -39,7 +39,7 @@ class FaceLister {
   std::span<const float> numbers_;
   int width_ = 3, point_count_ = 0;
   ColorBinding binding_ = ColorBinding::whole;
-  bool indexed_ = false;  // do indices name the colors?
+  bool indexed_ = false;  // true if colors are given by indices
   std::vector<InventorVector> corners_;
 };
 
@@ -66,7 +66,7 @@ void FaceLister::take_points(const InventorState& state) {
   surface_.clockwise = state.clockwise;
   surface_.convex = state.convex;
   InventorState bound = state;
-  static constexpr std::array<float, 3> origin = {};  // the only point where there are no others
+  static constexpr std::array<float, 3> origin = {};  // default if there are no points
   set_points(origin, 3);
   if (state.coordinates)
     set_points(state.coordinates->numbers("point"),
@@ -94,7 +94,7 @@ void FaceLister::take_vrml_points() {
 }
 
 void FaceLister::add(std::span<const int> corners, int color) {
-  // every other triangle of a strip turns the other way
+  // the orientation of triangles in a strip alternates
   const size_t step = strips() ? 3 : corners.size();
   for (size_t i = 0; i + 2 < corners.size() && i + step <= corners.size(); ++i) {
     corners_.clear();
@@ -144,7 +144,7 @@ void FaceLister::list_counted() {
   int64_t used = start;
   std::vector<int> face;
   for (size_t i = 0; i < counts.size(); ++i) {
-    // -1: all that are left
+    // -1: all remaining
     const int64_t count = counts[i] == -1 ? std::max<int64_t>(0, point_count_ - used) : counts[i];
     if (counts[i] != -1 && count < 3)
       refuse("number {} of numVertices: expected at least 3, got {}", i, counts[i]);

@@ -32,7 +32,7 @@ void InventorParser::field(InventorNode& node, const InventorField& field) {
   node.values.emplace_back(&field, std::move(value));
 }
 
-/// What engines or other fields feed into a field changes nothing here: its own value counts.
+/// Skips connections to engines or other fields: the value in the file is used.
 void InventorParser::skip_connection(const InventorType& type, const InventorField& field) {
   if (tokens_.peek().is("~")) tokens_.next();
   const InventorToken sign = tokens_.peek();
@@ -110,7 +110,7 @@ void InventorParser::skip_unknown_field(const InventorType& type, const Inventor
   if (!begins_name(name) || !skip_unknown_value())
     tokens_.refuse(name.line, "{}{}", sentence, meant);
   skip_connection(type, {});
-  count_value();  // so that these, too, have an end
+  count_value();  // so that their number is limited, too
   warn(name.line, fmt::format("{} is skipped{}", sentence, meant));
 }
 
@@ -169,7 +169,7 @@ float InventorParser::number(const InventorType& type, const InventorField& fiel
       end != text.data() + text.size())
     tokens_.refuse(token.line, "{}: {}: expected a number, got {}", type.name, field.name,
                    token.told());
-  // too small to tell from zero, or too large
+  // too small to be distinguished from zero, or too large
   if (code == std::errc::result_out_of_range)
     value = std::strtod(std::string(text).c_str(), nullptr);
   if (!std::isfinite(static_cast<float>(value)))
@@ -231,7 +231,7 @@ void InventorParser::words(const InventorType& type, const InventorField& field,
       tokens_.refuse(token.line, "{}: {}: expected one of {}, got {}", type.name, field.name,
                      fmt::join(field.choices, ", "), in_quotes(text));
     count_value();
-    // each choice once, however often a file says it
+    // each choice once, even if it is repeated in the file
     if (!names || std::ranges::count(out, text) == 0) out.emplace_back(text);
   };
   const InventorToken first = tokens_.peek();

@@ -13,9 +13,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr size_t max_nested_files = 32;  // files that include files
+constexpr size_t max_nested_files = 32;  // depth of files that include files
 
-/// Files to nodes, each read once.
+/// Reads files into nodes, each file once.
 class InventorLoader {
  public:
   InventorLoader(InventorGraph& graph, const ReadOptions& options)
@@ -69,7 +69,7 @@ const InventorNode* InventorLoader::include(const std::string& name, const fs::p
 
 const InventorNode* InventorLoader::load_part(const fs::path& path, const std::string& place) {
   const std::string text = errors_at(place, [&] { return read_text(path); });
-  // of a chain of files the first and the last are told
+  // errors in nested files name the first file and the last
   if (open_.size() > 1) return load(path, text);
   return errors_at(place, [&] { return load(path, text); });
 }

@@ -1,4 +1,5 @@
-// Inventor and VRML files as graphs of nodes, with the files that they include in their places.
+// Inventor and VRML files as graphs of nodes, with included files in place of the nodes that name
+// them.
 #pragma once
 #include <filesystem>
 
@@ -7,14 +8,14 @@
 
 namespace clench {
 
-/// Files included, each counted as often as it is named: far above what models name.
+/// Limit on included files, each counted every time it is named: far above the number in models.
 inline constexpr size_t max_includes = 10'000;
 
-/// The graph of a file that holds `text`. Nodes of unknown types are stepped over with a warning,
-/// nodes that have no part in triangles, colors, units and transforms without one. A PROTO's body
-/// is read again for each of its instances, with their values.
-/// throws Error  "box.iv:31: ..." when the file or one that it includes is malformed, missing,
-/// includes itself or is larger than files may be
+/// The graph of a file that contains `text`. Nodes of unknown types are skipped with a warning;
+/// nodes without effect on triangles, colors, units and transforms are skipped without one. The
+/// body of a PROTO is parsed again for each instance, with the values of this instance.
+/// throws Error  "box.iv:31: ..." if the file or an included one is malformed, missing, includes
+/// itself or is too large
 InventorGraph read_inventor_graph(const std::filesystem::path& path, const std::string& text,
                                   const ReadOptions& options);
 

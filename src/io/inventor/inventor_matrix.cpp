@@ -72,7 +72,7 @@ InventorMatrix InventorMatrix::transform(std::span<const float> t, std::span<con
   return scaled * rotation(turn) * translation(forth);
 }
 
-// products with the identity are left out, for they would lose the sign of a zero
+// products with the identity are omitted, because they would lose the sign of zeros
 InventorMatrix InventorMatrix::operator*(const InventorMatrix& b) const {
   if (is_identity()) return b;
   if (b.is_identity()) return *this;

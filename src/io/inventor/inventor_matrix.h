@@ -1,6 +1,6 @@
-// Transforms of scene graphs: 4 x 4 matrices of 32-bit numbers that multiply row vectors. Every
-// sum is taken in one fixed order, so that points come out to the bit as in other readers of these
-// files, which round alike.
+// Transforms of scene graphs: 4 x 4 matrices of 32-bit numbers that multiply row vectors. Every sum
+// is evaluated in a fixed order, so that points are bit-identical to those of other readers of
+// these files, which round in the same way.
 #pragma once
 #include <array>
 #include <span>
@@ -15,9 +15,10 @@ struct InventorMatrix {
 
   static InventorMatrix translation(std::span<const float> t);
   static InventorMatrix scale(std::span<const float> s);
-  /// About an axis of any length, "x y z angle".
+  /// Rotation about an axis of any length, "x y z angle".
   static InventorMatrix rotation(std::span<const float> axis_angle);
-  /// Scaled along the axes of scale_orientation and rotated, both about the center, then moved.
+  /// Scaling along the axes of scale_orientation and rotation, both about the center, followed by
+  /// the translation.
   static InventorMatrix transform(std::span<const float> translation,
                                   std::span<const float> rotation, std::span<const float> scale,
                                   std::span<const float> scale_orientation,

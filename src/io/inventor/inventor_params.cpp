@@ -17,7 +17,7 @@ namespace {
 constexpr const char* keys[] = {"material", "youngs", "useFlockOfBirds",
                                 "mass",     "cog",    "inertia_matrix"};
 
-/// absent  what stands for 0; 0: nothing does
+/// absent  value used instead of 0; 0: no replacement
 double number_of(const Line& line, const Quantity& quantity, Repairs& repairs, double absent = 0) {
   const Place subject = line.place().of(quantity.name);
   double value = repairs.magnitude(line.number(1, quantity.name), subject);
@@ -26,7 +26,7 @@ double number_of(const Line& line, const Quantity& quantity, Repairs& repairs, d
   return value;
 }
 
-/// Empty, with a warning, when no body has such an inertia.
+/// Empty, with a warning, if the inertia is not positive definite.
 std::optional<Eigen::Matrix3d> inertia_rows(LineReader& lines, const Line& head,
                                             const ReadOptions& options) {
   // three rows on the next three lines, each after a '#'
@@ -56,7 +56,7 @@ void read_inventor_params(const std::string& text, const std::string& file,
   LineReader lines(file, text);
   Repairs repairs(options.diagnostics);
   while (lines.skip_to('#')) {
-    const bool marked = lines.begins_with('#');  // with no blank before it
+    const bool marked = lines.begins_with('#');  // without a blank before it
     const Line line = lines.next();
     if (!line.text().starts_with('#')) continue;
     const std::string_view key = line.word(0).substr(1);

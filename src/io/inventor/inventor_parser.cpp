@@ -11,14 +11,14 @@ namespace clench {
 
 namespace {
 
-constexpr size_t max_brackets = 250;  // nested in one file; the parser goes down by recursion
-// nodes above one another, in all files; a level takes up to 9 kB of the stack, with sanitizers
+constexpr size_t max_brackets = 250;  // nesting depth in one file; the parser is recursive
+// nesting depth of nodes over all files; with sanitizers a level takes up to 9 kB of the stack
 constexpr int max_inventor_depth = 500;
 constexpr size_t max_inventor_nodes = 1'000'000;
 constexpr size_t max_inventor_names = 1'000'000;
 constexpr size_t max_proto_names = 100'000;
 constexpr size_t max_proto_bytes = 20'000'000;
-constexpr size_t max_suggested = 40;  // letters of a name, and names
+constexpr size_t max_suggested = 40;  // letters of a name, and number of names
 
 }  // namespace
 
@@ -121,7 +121,7 @@ const InventorNode* InventorParser::read() {
       tokens_.refuse(token.line, "expected a node type before '{}', got nothing", token.text);
     if (token.kind == InventorToken::string)
       tokens_.refuse(token.line, "expected a node, got {}", token.told());
-    // one brace too many closes what is closed already
+    // a surplus brace closes nothing and can be ignored
     if (token.text != "}") tokens_.refuse(token.line, "'{}' closes nothing", token.text);
     if (++stray == 1) stray_line = token.line;
   }
@@ -201,7 +201,7 @@ const InventorNode* InventorParser::node(const InventorToken& first, const Inven
     warn(type_word.line, fmt::format("{} inside {} is skipped", type.name, around->name));
     skip_brackets();
   } else if (type.kind <= InventorKind::odd && type.kind != InventorKind::value) {
-    count_value();  // so that these, too, have an end
+    count_value();  // so that their number is limited, too
     if (type.kind != InventorKind::idle)
       warn(type_word.line,
            fmt::format("{} {} is skipped", type.kind == InventorKind::odd ? "node" : "unknown node",
@@ -263,7 +263,7 @@ void InventorParser::include(InventorNode& node) {
   if (const InventorNode* root = include_(names[0], node.line)) node.children.push_back(root);
 }
 
-// --- PROTOs: text that stands for nodes, with names in place of some values ---
+// --- PROTOs: text that is parsed again for each instance, with names in place of some values ---
 
 void InventorParser::check_nested(const InventorToken& type, const InventorToken& bracket) const {
   if (in_proto_ && bracket.opens('{') && protos_.contains(type.text))
@@ -281,7 +281,8 @@ void InventorParser::proto(int line) {
   if (instance_) tokens_.refuse(line, "a PROTO inside a PROTO is not read");
   count_proto_name();
   const std::string name(word("a name after PROTO").text);
-  Proto& made = protos_[name] = {};  // known from here on, so that it is not used in itself
+  // declared before its body, so that uses inside it are detected
+  Proto& made = protos_[name] = {};
   in_proto_ = true;
   const auto is_access = [](const InventorToken& t) {
     return t.is("field") || t.is("exposedField") || t.is("eventIn") || t.is("eventOut");
@@ -362,7 +363,7 @@ InventorValue InventorParser::proto_value(const InventorType& type, const Invent
   const auto part =
       given != instance_->values.end() ? std::optional(given->second) : absent->second;
   if (!part) return field.absent;
-  // values stand in the file itself, outside the PROTO
+  // values are in the file itself, outside the PROTO
   return read_part(*part, nullptr, [&] { return value(type, field); });
 }
 

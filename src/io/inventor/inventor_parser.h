@@ -1,4 +1,4 @@
-// One Inventor or VRML file taken apart into nodes.
+// Parses one Inventor or VRML file into nodes.
 #pragma once
 #include <functional>
 #include <map>
@@ -9,9 +9,9 @@
 
 namespace clench {
 
-/// What the files of one graph share.
+/// Counts over all files of a graph, which are limited.
 struct InventorBudget {
-  int open_nodes = 0;      ///< around the place that is read, in all files and PROTOs
+  int open_nodes = 0;      ///< nodes that contain the current position, in all files and PROTOs
   size_t values = 0;       ///< of fields, read so far
   size_t names = 0;        ///< of nodes
   size_t proto_names = 0;  ///< of PROTOs and their fields
@@ -20,7 +20,7 @@ struct InventorBudget {
 
 class InventorParser {
  public:
-  /// Gives the root of the file that a node names.
+  /// Returns the root of the file that a node names.
   using Include = std::function<const InventorNode*(const std::string& name, int line)>;
 
   InventorParser(std::string_view text, int file, InventorGraph& graph, InventorBudget& budget,
@@ -85,11 +85,11 @@ class InventorParser {
 
   void field(InventorNode& node, const InventorField& field);
   void skip_connection(const InventorType& type, const InventorField& field);
-  /// Warns of a field that the type does not have, and steps over its value.
+  /// Warns of a field that the type does not have, and skips its value.
   void skip_unknown_field(const InventorType& type, const InventorToken& name);
-  /// Steps over one value by its syntax alone.   returns  false when no value follows
+  /// Skips one value by syntax alone.   returns  false if no value follows
   bool skip_unknown_value();
-  /// Steps over a node, or over the name of one.
+  /// Skips a node, or the name of one.
   void skip_node(const InventorToken& first);
   InventorValue value(const InventorType& type, const InventorField& field);
   template <class Take>
@@ -103,16 +103,18 @@ class InventorParser {
   void count_value();
   void count_proto_name();
 
-  /// from the next bracket to the one that closes it
+  /// Skips from the next bracket to the matching one.
   void skip_brackets();
-  /// Steps over a value of any kind: brackets, a string, or words until one at which it `ends`.
+  /// Skips a value of any kind: brackets, a string, or words up to the first for which `ends` is
+  /// true.
   Part skip_value(const std::function<bool(const InventorToken&)>& ends);
 
   void proto(int line);
   void check_nested(const InventorToken& type, const InventorToken& bracket) const;
   const InventorNode* instance(const Proto& proto, const InventorToken& name);
   InventorValue proto_value(const InventorType& type, const InventorField& field);
-  /// reads a part of the text, with the names of a PROTO's instance or, without one, the file's
+  /// reads a part of the text; names are looked up in the PROTO instance `scope`, or in the file if
+  /// it is null
   template <class Read>
   auto read_part(const Part& part, Instance* scope, Read read);
 
@@ -124,8 +126,8 @@ class InventorParser {
   std::vector<Bracket> brackets_;
   Names names_;
   std::map<std::string, Proto, std::less<>> protos_;
-  bool in_proto_ = false;         // is a PROTO stepped over?
-  Instance* instance_ = nullptr;  // whose PROTO is read
+  bool in_proto_ = false;         // true while a PROTO is skipped
+  Instance* instance_ = nullptr;  // instance whose PROTO is read
 };
 
 }  // namespace clench

@@ -15,7 +15,7 @@ using Ring = std::vector<InventorVector>;
 
 constexpr size_t max_extrusion_points = 1'000'000;  // of all cross sections together
 
-/// Slices of a round shape; at a complexity of 1 it has `finest` of them.
+/// Number of slices of a round shape; `finest` at complexity 1.
 int slices_of(float complexity, int finest, int least) {
   return std::max(floor_int(complexity * static_cast<float>(finest)), least);
 }
@@ -25,7 +25,7 @@ void add_triangle(InventorSurface& surface, const InventorVector& a, const Inven
   surface.add(std::array{a, b, c}, color);
 }
 
-/// A fan over the corners of a flat ring, from its first corner on.
+/// A triangle fan over the corners of a flat ring, from its first corner.
 void add_fan(InventorSurface& surface, const Ring& ring, int color) {
   for (size_t i = 1; i + 1 < ring.size(); ++i)
     add_triangle(surface, ring[0], ring[i], ring[i + 1], color);
@@ -38,7 +38,8 @@ void cut_cube(const InventorNode& shape, const InventorState& state, InventorSur
   else
     half = {shape.number("width") * 0.5f, shape.number("height") * 0.5f,
             shape.number("depth") * 0.5f};
-  // front, back, left, right, top, bottom, each from a corner round: bits x, y, z are minus
+  // front, back, left, right, top, bottom, each as a cycle of corners; set bits of x, y, z mean
+  // minus
   constexpr int sides[6][4] = {{0, 1, 3, 2}, {5, 4, 6, 7}, {1, 5, 7, 3},
                                {4, 0, 2, 6}, {4, 5, 1, 0}, {2, 3, 7, 6}};
   for (int side = 0; side < 6; ++side) {
@@ -50,7 +51,7 @@ void cut_cube(const InventorNode& shape, const InventorState& state, InventorSur
   }
 }
 
-/// Points on a circle about y, from -z over -x.
+/// Points on a circle about y, from -z via -x.
 Ring circle(float radius, float y, int slices) {
   Ring out;
   const auto step = static_cast<float>(2 * std::numbers::pi / slices);
@@ -60,7 +61,7 @@ Ring circle(float radius, float y, int slices) {
   return out;
 }
 
-/// Does the shape have that part, "SIDES" or "side"?
+/// True if the shape has that part, "SIDES" or "side".
 bool has_part(const InventorNode& shape, std::string_view name, const char* field) {
   if (shape.type->field(field)) return shape.integer(field) != 0;
   const auto& parts = shape.words("parts");
@@ -73,7 +74,7 @@ void cut_round(const InventorNode& shape, const InventorState& state, InventorSu
   const int slices = slices_of(state.complexity, 40, 4);
   const float half = shape.number("height") * 0.5f,
               radius = shape.number(cone ? "bottomRadius" : "radius");
-  // the side ends where it began
+  // the side ends at its first point
   Ring low = circle(radius, -half, slices);
   low.push_back(low[0]);
   Ring high = low;
@@ -135,7 +136,7 @@ InventorVector cross(const InventorVector& a, const InventorVector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// of length 1; zero when it is too short to have a direction
+/// unit vector; zero if it is too short to have a direction
 InventorVector unit(const InventorVector& a) {
   const float length = std::sqrt(dot(a, a));
   return length > 1e-20f ? (1.0f / length) * a : InventorVector{0, 0, 0};
@@ -149,8 +150,8 @@ Ring vectors_of(std::span<const float> numbers) {
   return out;
 }
 
-/// The frames in which the cross sections of an extrusion lie: y along the spine, z out of the
-/// plane in which it bends.   source  ISO/IEC 14772-1 (VRML 97), 6.18 Extrusion
+/// Frames of the cross sections of an extrusion: y along the spine, z normal to the plane in which
+/// it bends.   source  ISO/IEC 14772-1 (VRML 97), 6.18 Extrusion
 struct SpineFrames {
   explicit SpineFrames(const Ring& spine);
 
@@ -167,13 +168,13 @@ SpineFrames::SpineFrames(const Ring& spine) : closed(spine.front() == spine.back
     y.push_back(unit(after(i) - before(i)));
     z.push_back(unit(cross(after(i) - spine[i], before(i) - spine[i])));
   }
-  // where it does not bend the plane of the last bend holds on, before the first one the first's
+  // straight parts keep the plane of the bend before them; before the first bend its plane is used
   const auto bend = std::ranges::find_if_not(z, is_zero);
   InventorVector last = {0, 0, 1};
   if (bend != z.end()) {
     last = *bend;
   } else if (const auto way = std::ranges::find_if_not(y, is_zero); way != y.end()) {
-    // a straight one: what turns y to its direction on the shortest way turns z
+    // a straight spine: z is turned by the shortest rotation from y to the spine's direction
     InventorVector axis = cross({0, 1, 0}, *way);
     const float angle = std::atan2(std::sqrt(dot(axis, axis)), (*way)[1]);
     if (is_zero(axis)) axis = {0, 0, 1};

@@ -10,7 +10,7 @@ namespace {
 
 struct TypeText {
   InventorKind kind;
-  std::string_view names;  // a VRML 2 node's begins with VRML
+  std::string_view names;  // names of VRML 2 nodes begin with VRML
   // name[:content[=absent]]: f3 three numbers, F lists; i I b S n N, C colors; w(A|B) one of these
   // words, W any of them
   std::string_view fields;
@@ -76,7 +76,7 @@ constexpr TypeText read_types[] = {
     {K::binding, "MaterialBinding",
      "value:w(OVERALL|PER_PART|PER_PART_INDEXED|PER_FACE|PER_FACE_INDEXED|PER_VERTEX|"
      "PER_VERTEX_INDEXED|DEFAULT|NONE)=OVERALL"},
-    // hints: of Inventor 1, in place of the next three; the first four words set none of them
+    // hints: of Inventor 1, instead of the next three; the first four words set none of them
     {K::hints, "ShapeHints",
      "hints:W(NONE|SURFACE|UNORDERED|CONCAVE|SOLID|ORDERED|CONVEX)= "
      "vertexOrdering:w(UNKNOWN_ORDERING|CLOCKWISE|COUNTERCLOCKWISE)=UNKNOWN_ORDERING shapeType "
@@ -116,7 +116,7 @@ constexpr TypeText read_types[] = {
     {K::heights, "VRMLElevationGrid",
      "xDimension:i=0 zDimension:i=0 xSpacing:f1=1 zSpacing:f1=1 height:F1= ccw:b=1 solid "
      "creaseAngle texCoord normal color colorPerVertex normalPerVertex"},
-    // faces may share the points of these
+    // their points may be shared with faces
     {K::flat, "IndexedLineSet IndexedPointSet IndexedMarkerSet LineSet PointSet MarkerSet",
      "vertexProperty startIndex numVertices numPoints coordIndex materialIndex normalIndex "
      "textureCoordIndex markerIndex"},
@@ -124,7 +124,7 @@ constexpr TypeText read_types[] = {
      "coord color colorPerVertex coordIndex colorIndex"},
 };
 
-// known by name alone: what stands in them is stepped over
+// known only by name: their contents are skipped
 constexpr std::pair<InventorKind, std::string_view> skipped_types[] = {
     {K::flat, "AsciiText IndexedNurbsCurve NurbsCurve Text2 Text3 VRMLText"},
     {K::odd_shape, "Image IndexedNurbsSurface NurbsSurface"},

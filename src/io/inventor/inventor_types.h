@@ -1,5 +1,5 @@
-// The nodes of Inventor and VRML that carry triangles, colors, units and transforms, with their
-// fields; and the names of those that have no part in these.
+// Types of Inventor and VRML nodes that describe triangles, colors, units and transforms, with
+// their fields; and the names of types without effect on these.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -12,8 +12,8 @@ namespace clench {
 enum class InventorKind {
   unknown,
   idle,   ///< without effect on triangles and colors
-  value,  ///< stands in fields of others
-  odd,    ///< has an effect that is not read
+  value,  ///< value of a field of another node
+  odd,    ///< has an effect that is not supported
   flat,   ///< a shape without triangles: lines, points, text
   odd_shape,
   group,
@@ -21,7 +21,7 @@ enum class InventorKind {
   transform_separator,
   vrml_transform,
   switching,
-  detail,  ///< of its children the first is the finest
+  detail,  ///< its first child is the finest
   array,
   copies,
   include,
@@ -62,10 +62,10 @@ struct InventorField {
   enum Content { unused, number, integer, color, flag, word, text, node };
   std::string_view name;
   Content content = unused;
-  int width = 1;                               ///< numbers in one value
-  bool many = false;                           ///< does it list values?
-  std::vector<std::string_view> choices = {};  ///< of a word
-  InventorValue absent = {};                   ///< what it is where a file says nothing
+  int width = 1;                               ///< numbers per value
+  bool many = false;                           ///< true for lists of values
+  std::vector<std::string_view> choices = {};  ///< allowed words
+  InventorValue absent = {};                   ///< default value
 };
 
 struct InventorType {
@@ -83,9 +83,9 @@ struct InventorType {
   }
 };
 
-/// By the name in a file, which may begin with So or VRML; in VRML 2 files the nodes of VRML 2 go
-/// before those of Inventor that have the same name.   returns  one of kind unknown when there is
-/// none
+/// The type with that name in a file, which may begin with So or VRML. In VRML 2 files, nodes of
+/// VRML 2 take precedence over Inventor nodes of the same name.   returns  a type of kind unknown
+/// if there is none
 const InventorType& inventor_type(std::string_view name, bool vrml2);
 
 }  // namespace clench

@@ -11,7 +11,7 @@ namespace {
 
 using K = InventorKind;
 
-/// Tells what `fault` says of each number that the node gives; it may put the number right.
+/// Reports the result of `fault` for each number of the node; `fault` may repair the number.
 template <class Number, class Fault>
 void tell_faults(InventorNode& node, InventorGraph& graph, Fault fault) {
   const std::string& file = graph.files[node.file];
@@ -23,7 +23,7 @@ void tell_faults(InventorNode& node, InventorGraph& graph, Fault fault) {
                             {Place(file, node.line).of(node.type->name).of(field->name), wrong});
 }
 
-// all numbers of cubes and the like are lengths
+// all numbers of cubes and similar shapes are lengths
 std::string repair_size(float& x, std::string_view) {
   const float given = x;
   x = std::abs(x);

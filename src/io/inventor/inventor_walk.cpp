@@ -33,8 +33,8 @@ InventorMatrix matrix_from(std::span<const float> sixteen) {
   return out;
 }
 
-/// Numbers that a node lists itself. Points are left out: they cost nothing until an index names
-/// them.
+/// Count of numbers listed directly in a node. Points are excluded: they take no time until an
+/// index refers to them.
 size_t listed_by(const InventorNode& node) {
   size_t count = 0;
   for (const auto& [field, value] : node.values)
@@ -59,7 +59,7 @@ class InventorWalker {
   void visit_shape(const InventorNode& node, InventorState state);
   void set_units(const InventorNode& node, InventorState& state);
   void set_material(const InventorNode& node, InventorState& state);
-  /// is it one of those nodes that move what follows?
+  /// returns  true if the node transforms those after it
   bool transform(const InventorNode& node, InventorState& state);
   bool set_property(const InventorNode& node, InventorState& state);
 
@@ -75,7 +75,7 @@ void InventorWalker::count_visit(const InventorNode& node) {
          walk_.max_visits);
 }
 
-// what gives no triangle costs time, too
+// data that gives no triangles takes time, too
 void InventorWalker::count_listed(const InventorNode& shape) {
   listed_ += listed_by(shape);
   for (const auto& [field, value] : shape.values)
@@ -149,11 +149,11 @@ void InventorWalker::visit_choice(const InventorNode& node, InventorState& state
     visit(*node.children[choice], state);
 }
 
-// a switch in a copy that inherits its choice takes the child of the copy's number
+// a switch inside copy i that inherits its choice selects child i
 void InventorWalker::visit_array(const InventorNode& node, const InventorState& state) {
   const int counts[] = {node.integer("numElements1"), node.integer("numElements2"),
                         node.integer("numElements3")};
-  if (std::ranges::min(counts) <= 0) return;  // or rows without copies turn on and on
+  if (std::ranges::min(counts) <= 0) return;  // otherwise empty rows could repeat without limit
   const auto &first = node.numbers("separation1"), &second = node.numbers("separation2"),
              &third = node.numbers("separation3");
   const std::string& origin = node.word("origin");
@@ -234,7 +234,7 @@ bool InventorWalker::transform(const InventorNode& node, InventorState& state) {
 
 void InventorWalker::set_units(const InventorNode& node, InventorState& state) {
   const std::string& name = node.word("units");
-  if (name != "METERS") walk_.units.insert(name);  // which is what stands without any
+  if (name != "METERS") walk_.units.insert(name);  // which is the default
   const float unit = length_of_unit(name), factor = unit / state.unit;
   state.unit = unit;
   state.X = InventorMatrix::scale(std::array<float, 3>{factor, factor, factor}) * state.X;
@@ -264,7 +264,8 @@ bool InventorWalker::set_property(const InventorNode& node, InventorState& state
     case K::hints:
       state.clockwise = node.word("vertexOrdering") == "CLOCKWISE";
       state.convex = node.word("faceType") == "CONVEX";
-      // given together, the later fields of Inventor 2 are not used: files of version 1 have none
+      // if both are given, the later fields of Inventor 2 are ignored: files of version 1 do not
+      // have them
       if (const auto& old = node.words("hints"); !old.empty())
         state.clockwise = false, state.convex = std::ranges::count(old, "CONVEX") > 0;
       return true;

@@ -12,7 +12,7 @@ using Eigen::Affine3d;
 using Eigen::Vector3d;
 
 constexpr size_t max_bytes = size_t{256} << 20;
-constexpr long max_tags = 8'000'000;  // each takes some 100 bytes when it is parsed
+constexpr long max_tags = 8'000'000;  // each takes about 100 bytes when parsed
 constexpr int max_nodes = 200'000;    // those that are used several times count each time
 constexpr int deepest_node = 200;
 
@@ -23,7 +23,7 @@ class ColladaReader {
         ids_(xml_.root()),
         work_{ids_, builder},
         textures_(input, ids_, work_) {}
-  /// returns  are there colors?
+  /// returns  true if there are colors
   bool read();
   const std::set<std::string>& warnings() const { return work_.warnings; }
 
@@ -51,7 +51,7 @@ Affine3d from_rows(const std::vector<double>& m) {
   return X;
 }
 
-/// source  COLLADA 1.4.1, lookat: eye, what it looks at along -z, what is up
+/// source  COLLADA 1.4.1, lookat: eye, the point of interest along -z, the up direction
 Affine3d looking(const XmlElement& e) {
   const auto v = e.numbers(9);
   const Vector3d eye(v[0], v[1], v[2]), up(v[6], v[7], v[8]);
@@ -68,7 +68,7 @@ Affine3d looking(const XmlElement& e) {
 void ColladaReader::read_asset(const XmlElement& root) {
   MeshReport& report = work_.builder.report;
   report.format = "COLLADA";
-  report.unit_source = UnitSource::format;  // meters and y up, unless the file says otherwise
+  report.unit_source = UnitSource::format;  // defaults: meters and y up
   report.up = 'y';
   const XmlElement asset = root.child("asset");
   if (!asset) return;
@@ -85,7 +85,7 @@ void ColladaReader::read_asset(const XmlElement& root) {
   }
 }
 
-/// The scene that is shown: the one that <scene> names, else the first one; or none.
+/// The displayed scene: the one named by <scene>, otherwise the first one; may be null.
 XmlElement ColladaReader::scene(const XmlElement& root) const {
   if (const XmlElement shown = root.child("scene"))
     if (const XmlElement instance = shown.child("instance_visual_scene"))
@@ -94,7 +94,7 @@ XmlElement ColladaReader::scene(const XmlElement& root) const {
   return library ? library.child("visual_scene") : XmlElement();
 }
 
-/// source  COLLADA 1.4.1, node: the transformations multiply in their order
+/// source  COLLADA 1.4.1, node: the transformations are multiplied in order
 Affine3d ColladaReader::placement(const XmlElement& node) {
   Affine3d X = Affine3d::Identity();
   for (const XmlElement& e : node.children()) {

@@ -16,12 +16,12 @@ using Eigen::Vector3d;
 
 constexpr int max_inputs = 64, max_stride = 64;
 
-/// A vertex of the builder, and its texture coordinates; -1: none.
+/// A vertex of the builder and its texture coordinates; -1: none.
 struct FaceCorner {
   int vertex = 0, place = -1;
 };
 
-/// Where the points of a <vertices> lie in the builder.
+/// Range of the vertices of a <vertices> element in the builder.
 struct Points {
   int first = 0, count = 0;
 };
@@ -47,7 +47,7 @@ class MeshReader {
   bool mirrored_;
   ColladaWork& work_;
   std::map<std::string, Points> known_;  // by the id of <vertices>
-  // of the primitive at hand
+  // state of the current primitive
   Points at_;
   int offset_ = 0, stride_ = 1;
   int place_offset_ = -1;                // of texture coordinates; -1: none
@@ -68,14 +68,14 @@ std::vector<double> read_numbers(const XmlElement& e, ColladaWork& work) {
   return numbers;
 }
 
-/// What an element says of how much stands in it, and does not decide.
+/// Warns if the count given by an element differs from the number of its contents, which is used.
 void check_count(const XmlElement& e, size_t got, ColladaWork& work) {
   if (!e.attribute("count") || static_cast<size_t>(e.integer_attribute("count", 0)) == got) return;
   work.warnings.insert(
       fmt::format("counts of <{}> that differ from what stands there are not used", e.name()));
 }
 
-/// Rows of numbers with these names, at most three, as a <source> and its accessor say.
+/// Rows of at most three numbers with these names, as described by a <source> and its accessor.
 std::vector<Vector3d> read_source(const XmlElement& source, ColladaWork& work,
                                   std::string_view names = "XYZ") {
   XmlElement accessor, array = source.child("float_array");
@@ -130,7 +130,7 @@ Points MeshReader::points(const XmlElement& input) {
   vertices.fail("vertices: expected an input POSITION, got none");
 }
 
-/// The vertices that a <p> lists, as numbers of the builder, with their texture coordinates.
+/// The vertices listed in a <p>, as numbers of the builder, with their texture coordinates.
 std::vector<FaceCorner> MeshReader::corners(const XmlElement& p) {
   const auto numbers = read_numbers(p, work_);
   if (numbers.size() % static_cast<size_t>(stride_) != 0)
@@ -170,7 +170,7 @@ void MeshReader::add(const XmlElement& at, std::vector<FaceCorner> face, const C
   errors_at(at, [&] { work_.builder.add_face(vertices, color, 0, textured ? &texture : nullptr); });
 }
 
-/// Faces of three corners, or of as many as <vcount> says.
+/// Faces with three corners, or with the numbers of corners in <vcount>.
 void MeshReader::add_polygons(const XmlElement& list, const std::vector<FaceCorner>& all,
                               const ColladaLook& look) {
   size_t at = 0;
@@ -205,7 +205,7 @@ void MeshReader::add_strip(const XmlElement& p, bool fan, const ColladaLook& loo
   }
 }
 
-/// Texture coordinates of the set that the material asks for.
+/// Texture coordinates of the set selected by the material.
 void MeshReader::read_places(const XmlElement& primitive, const ColladaLook& look) {
   place_offset_ = -1;
   places_.clear();
@@ -279,7 +279,7 @@ ColladaIds::ColladaIds(const XmlElement& root) {
     waiting.pop_back();
     if (auto id = e.attribute("id")) elements_.emplace(*id, e);
     const auto children = e.children();
-    // the first of equal ids counts
+    // the first of several equal ids is used
     waiting.insert(waiting.end(), children.rbegin(), children.rend());
   }
 }

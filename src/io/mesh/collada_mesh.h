@@ -1,4 +1,4 @@
-// The polygons of one <mesh> of a COLLADA file.
+// Polygons of one <mesh> of a COLLADA file.
 #pragma once
 #include <Eigen/Geometry>
 #include <functional>
@@ -14,15 +14,15 @@
 
 namespace clench {
 
-/// What an element's "#name" refers to; it belongs to the file.
+/// Resolves references "#name" to elements, which belong to the file.
 class ColladaIds {
  public:
   explicit ColladaIds(const XmlElement& root);
-  /// The element with the id that an attribute of `from` names.
+  /// The element whose id is given by an attribute of `from`.
   /// throws Error  "part.dae:31: input: expected an element with the id 'x', got none"
   XmlElement find(const XmlElement& from, const char* attribute) const;
 
-  /// None if no element has it.
+  /// Null if no element has this id.
   XmlElement named(const std::string& id) const;
 
  private:
@@ -32,22 +32,22 @@ class ColladaIds {
 struct ColladaLook {
   Eigen::Vector3f color = Appearance().color;
   bool given = false;
-  std::shared_ptr<const Image> image = {};  ///< null: one color
-  int texture = -1;                         ///< its number in the builder
+  std::shared_ptr<const Image> image = {};  ///< null: uniform color
+  int texture = -1;                         ///< number of the texture in the builder
   std::optional<int> set = {};              ///< of texture coordinates; empty: the first
 };
 
-/// What the meshes of a file share.
+/// State shared by all meshes of a file.
 struct ColladaWork {
   const ColladaIds& ids;
   GeometryBuilder& builder;
-  std::set<std::string> warnings = {};  ///< what is not used
-  /// numbers and elements that may still be read, those that are used several times each time
+  std::set<std::string> warnings = {};  ///< about contents that are not used
+  /// numbers and elements that may still be read; contents used several times count each time
   long left = 300'000'000;
 };
 
-/// Adds the faces of a <mesh>, its points moved by X.
-/// `look`: what the faces with a material of that symbol look like
+/// Adds the faces of a <mesh>, with its points transformed by X.
+/// look  appearance of faces by the symbol of their material
 /// throws  Error  "part.dae:31: p: expected a vertex from 0 to 7, got 8"
 void add_collada_mesh(const XmlElement& mesh, const Eigen::Affine3d& X,
                       const std::function<ColladaLook(const std::string& symbol)>& look,

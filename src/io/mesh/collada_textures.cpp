@@ -18,7 +18,7 @@ XmlElement effect_parameter(const XmlElement& profile, const std::string& sid) {
   return {};
 }
 
-// "file:///a%20b.png": the path that a URI names
+// Path named by a URI: "file:///a%20b.png".
 std::string path_of(std::string uri) {
   if (uri.starts_with("file://")) uri = uri.substr(7);
   std::string out;
@@ -42,7 +42,7 @@ Wrap wrap_of(const XmlElement& sampler, const char* name) {
   return word == "WRAP" ? Wrap::repeat : word.starts_with("MIRROR") ? Wrap::mirror : Wrap::clamp;
 }
 
-// of the coordinates that a <texture> names
+// input set of the coordinates that a <texture> names
 std::optional<int> coordinate_set(const XmlElement& texture, const XmlElement& material) {
   const auto name = texture.attribute("texcoord");
   for (const XmlElement& bound : material.children("bind_vertex_input"))
@@ -59,7 +59,7 @@ XmlElement inner_element(XmlElement element, std::initializer_list<const char*> 
   return element;
 }
 
-/// The image of an <image>, of version 1.4 or 1.5.
+/// The image of an <image> of version 1.4 or 1.5.
 std::shared_ptr<const Image> ColladaTextures::image(const XmlElement& element) {
   XmlElement from = element.child("init_from");
   if (const XmlElement ref = inner_element(from, {"ref"})) from = ref;
@@ -86,7 +86,7 @@ ColladaLook ColladaTextures::look(const XmlElement& texture, const XmlElement& p
         inner_element(effect_parameter(profile, source.text()), {"surface", "init_from"});
     if (from) found = ids_.named(from.text());
   } else {
-    found = ids_.named(name);  // some exporters name the image itself
+    found = ids_.named(name);  // some exporters refer to the image directly
   }
   ColladaLook out;
   if (!found || found.name() != "image") {

@@ -1,4 +1,4 @@
-// Images of COLLADA materials: from the element that uses one to its file.
+// Finds the image files of COLLADA materials.
 #pragma once
 #include <initializer_list>
 #include <map>
@@ -10,7 +10,8 @@
 
 namespace clench {
 
-/// The first child of that name, its first child of the next name, and so on; or none.
+/// The first child of that name, its first child of the next name, and so on; null if one is
+/// missing.
 XmlElement inner_element(XmlElement element, std::initializer_list<const char*> path);
 
 class ColladaTextures {
@@ -18,7 +19,7 @@ class ColladaTextures {
   ColladaTextures(const MeshInput& input, const ColladaIds& ids, ColladaWork& work)
       : input_(input), ids_(ids), work_(work) {}
 
-  /// The look by a <texture> of a <profile_COMMON>, bound by an <instance_material>.
+  /// Appearance given by a <texture> of a <profile_COMMON>, bound by an <instance_material>.
   ColladaLook look(const XmlElement& texture, const XmlElement& profile,
                    const XmlElement& material);
 
@@ -29,7 +30,7 @@ class ColladaTextures {
   const ColladaIds& ids_;
   ColladaWork& work_;
   TextureFiles files_;
-  std::map<std::string, int> numbers_;  // of textures, by file and wrapping
+  std::map<std::string, int> numbers_;  // of textures, by file and wrap mode
 };
 
 }  // namespace clench

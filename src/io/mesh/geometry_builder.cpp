@@ -17,21 +17,21 @@ namespace {
 
 bool repeats_a_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-/// A surface, and which of the gathered triangles its own are.
+/// A surface, and for each triangle its index among the collected ones.
 struct Surface {
   Mesh mesh;
   std::vector<int> kept;
   MeshFaults faults;
 };
 
-/// For each point the first one at the same place.
+/// For each point the first point at the same position.
 std::vector<int> first_at_place(const std::vector<Vector3d>& points, const Progress& progress) {
   size_t size = 16;
   while (size < 2 * points.size()) size *= 2;
   std::vector<int> table(size, -1), first(points.size());
   for (size_t i = 0; i < points.size(); ++i) {
     Hasher hasher;
-    for (const double x : points[i]) hasher.add(x + 0.0);  // makes -0 and 0 one
+    for (const double x : points[i]) hasher.add(x + 0.0);  // makes -0 and 0 equal
     size_t slot = hasher.value() & (size - 1);
     while (table[slot] >= 0 && points[table[slot]] != points[i]) slot = (slot + 1) & (size - 1);
     if (table[slot] < 0) table[slot] = static_cast<int>(i);
@@ -41,8 +41,8 @@ std::vector<int> first_at_place(const std::vector<Vector3d>& points, const Progr
   return first;
 }
 
-/// Vertex i becomes vertex to[i] <= i. Triangles that are dropped or left with a vertex twice go,
-/// and so do vertices that no triangle uses; the others keep their order.
+/// Replaces vertex i by vertex to[i] <= i. Removes triangles that are dropped or have a vertex
+/// twice, and unused vertices; the others keep their order.
 /// dropped  one per triangle; empty: none
 Surface with_vertices_merged(const Surface& from, const std::vector<int>& to,
                              const std::vector<char>& dropped = {}) {
@@ -85,9 +85,9 @@ void weld_places(Surface& s, bool always, const Progress& progress) {
   if (always || welded.faults.open_edges < s.faults.open_edges) s = std::move(welded);
 }
 
-/// Seams of round shapes end in points that differ in their last bits: joins them where that
-/// repairs edges. The tolerance is a few units in the last place of the 32-bit numbers that the
-/// points were.
+/// Merges points along the seams of round shapes that differ only in their last bits, if that
+/// closes edges. The tolerance is a few units in the last place of 32-bit numbers, which many files
+/// store.
 void weld_seams(Surface& s, const Progress& progress) {
   const Bounds bounds = s.mesh.bounds();
   const double largest =
@@ -101,7 +101,7 @@ void weld_seams(Surface& s, const Progress& progress) {
   s.faults = faults;
 }
 
-/// Drops triangles if that leaves fewer faulty edges.
+/// Drops the triangles if that reduces the number of open and tangled edges.
 void drop_if_better(Surface& s, const std::vector<char>& dropped, const Progress& progress) {
   Surface rest = without_unused_vertices(s, dropped);
   if (rest.mesh.triangles.empty()) return;
@@ -117,11 +117,11 @@ void drop_flat_triangles(Surface& s, const Progress& progress) {
   drop_if_better(s, flat, progress);
 }
 
-/// Of triangles over the same vertices two that face opposite ways are a fold without inside, and
-/// go both; of those that are left one stays.
+/// Among triangles over the same vertices, two that face opposite ways enclose nothing: both are
+/// dropped. Of the remaining ones only one is kept.
 void drop_doubled_triangles(Surface& s, const Progress& progress) {
   const auto& triangles = s.mesh.triangles;
-  std::vector<std::pair<Triangle, int>> sorted;  // lowest vertex first, and the triangle
+  std::vector<std::pair<Triangle, int>> sorted;  // vertices from the lowest, and the triangle
   std::vector<char> odd(triangles.size()), dropped(triangles.size(), 0);
   for (size_t i = 0; i < triangles.size(); ++i) {
     Triangle t = triangles[i];
@@ -162,7 +162,7 @@ void GeometryBuilder::add(const std::array<Vector3d, 3>& corners, const Eigen::V
   add_triangle({first, first + 1, first + 2}, color, transparency);
 }
 
-// few vertices ever are so far out that their lines are worth keeping
+// very few vertices are that far out, so that storing their lines is cheap
 void GeometryBuilder::note_far(const Vector3d& p, int line) {
   if (line > 0 && p.cwiseAbs().maxCoeff() > largest_coordinate)
     far_lines_[static_cast<int>(mesh_.vertices.size()) - 1] = line;
@@ -223,10 +223,10 @@ std::vector<Triangle> GeometryBuilder::cut(const std::vector<Vector3d>& outline,
   return triangulate(outline, convex, &cutting_work_);
 }
 
-// beyond it 32 bits do not resolve the pixels of an image
+// beyond this, 32 bits do not resolve the pixels of an image
 static constexpr double farthest_uv = 1e5;
 
-// files go beyond what can be shown
+// files contain values that cannot be displayed
 static float clamped_share(float x) { return x >= 0 ? std::min(x, 1.0f) : 0.0f; }
 
 void GeometryBuilder::add_triangle(const Triangle& t, const Eigen::Vector3f& given,
@@ -246,7 +246,7 @@ void GeometryBuilder::add_triangle(const Triangle& t, const Eigen::Vector3f& giv
           texture->uv[of_face[k]].cwiseMax(-farthest_uv).cwiseMin(farthest_uv).cast<float>();
   }
 
-  // the whole body's color is the mean over its area
+  // the color of the body is the mean over its area
   const Vector3d& p = mesh_.vertices[t[0]];
   const double area = (mesh_.vertices[t[1]] - p).cross(mesh_.vertices[t[2]] - p).norm();
   if (!std::isfinite(area)) return;
@@ -316,7 +316,7 @@ Geometry GeometryBuilder::finish(bool colors_given, const std::string& subject,
   const size_t used = s.mesh.vertices.size();
   check_mesh(s.mesh, subject);
 
-  // repair what is open; a loose triangle has only open edges, so its file connects by place alone
+  // repair open edges; separate triangles have only open edges: they connect by position alone
   if (!loose_) s.faults = find_faults(s.mesh, progress);
   progress.check();
   if (loose_ || !s.faults.closed()) weld_places(s, loose_, progress);

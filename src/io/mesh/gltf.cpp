@@ -30,10 +30,10 @@ class GltfReader {
   struct Look {
     Eigen::Vector3f color = Appearance().color;
     float transparency = 0;
-    std::shared_ptr<const Image> image = {};  // null: one color
-    int coordinates = 0;                      // number of the set that places the image
-    int number = -1;                          // of the texture in the builder
-    Eigen::Affine2d placed = Eigen::Affine2d::Identity();  // of the coordinates in the image
+    std::shared_ptr<const Image> image = {};  // null: uniform color
+    int coordinates = 0;                      // number of the coordinate set that is used
+    int number = -1;                          // number of the texture in the builder
+    Eigen::Affine2d placed = Eigen::Affine2d::Identity();  // from coordinates to the image
   };
   using ImagePoints = std::vector<Eigen::Vector2d>;  // one per vertex; empty: no image
   std::vector<int> roots() const;
@@ -54,16 +54,17 @@ class GltfReader {
 
   GltfDocument document_;
   GeometryBuilder& builder_;
-  std::vector<std::pair<int, Affine3d>> waiting_;  // nodes and where their parents lie
+  std::vector<std::pair<int, Affine3d>> waiting_;  // nodes and the poses of their parents
   std::set<int> seen_;
   std::set<std::string> warnings_;
   TextureFiles images_;
-  std::map<int, Look> looks_;  // by the number of the material
+  std::map<int, Look> looks_;  // by number of the material
   size_t primitives_ = 0;
   bool colors_given_ = false;
 };
 
-/// Nodes of the scene that is shown first; of a file without scenes those without parents.
+/// Root nodes of the scene that is displayed by default; for a file without scenes, the nodes
+/// without parents.
 std::vector<int> GltfReader::roots() const {
   std::vector<int> out;
   if (document_.count("scenes") > 0) {
@@ -88,7 +89,7 @@ std::vector<int> GltfReader::roots() const {
 Affine3d GltfReader::placement(const GltfValue& node) const {
   Affine3d X = Affine3d::Identity();
   if (const GltfValue matrix = document_.member(node, "matrix")) {
-    const auto m = document_.numbers(matrix, 16);  // by columns
+    const auto m = document_.numbers(matrix, 16);  // in column-major order
     for (int c = 0; c < 4; ++c)
       for (int r = 0; r < 3; ++r) X(r, c) = m[static_cast<size_t>(4 * c + r)];
     return X;
@@ -121,7 +122,7 @@ void GltfReader::read_node(int i, const std::string& named_by, const Affine3d& X
   if (document_.member(node, "mesh"))
     read_mesh(document_.item("meshes", document_.expected_integer(node, "mesh"), node.name), X);
   const auto children = document_.items(document_.member(node, "children"));
-  // the first child comes off the stack first
+  // pushed in reverse, so that the first child is visited first
   for (auto child = children.rbegin(); child != children.rend(); ++child) {
     if (!child->json->is_number_integer()) document_.fail("{}: expected a number", child->name);
     const auto number = std::clamp<int64_t>(child->json->get<int64_t>(), -1, 1 << 30);

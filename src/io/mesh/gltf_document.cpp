@@ -14,10 +14,10 @@ using nlohmann::json;
 
 namespace {
 
-// parsed, it takes ten times as much memory
+// parsed JSON takes ten times as much memory
 constexpr size_t max_json_bytes = size_t{100} << 20;
 
-/// source  RFC 4648; white space is stepped over
+/// source  RFC 4648; white space is skipped
 std::optional<std::string> decode_base64(std::string_view text) {
   std::string out;
   out.reserve(text.size() / 4 * 3);
@@ -41,7 +41,7 @@ std::optional<std::string> decode_base64(std::string_view text) {
   return out;
 }
 
-/// "my%20mug.bin" as a file's name
+/// Decodes "my%20mug.bin" into a file name.
 std::string decode_percent(std::string_view text) {
   const auto digit = [](char c) {
     if (c >= '0' && c <= '9') return c - '0';
@@ -61,7 +61,8 @@ std::string decode_percent(std::string_view text) {
   return out;
 }
 
-constexpr int first_type = 5120;  // of components, which count on as NumberType does
+// code of the first component type; the others have the order of NumberType
+constexpr int first_type = 5120;
 
 bool is_component_type(int type) {
   constexpr int int32 = first_type + static_cast<int>(NumberType::int32);
@@ -129,7 +130,7 @@ void GltfDocument::check_version() const {
   if (!text.starts_with("2.")) fail("expected glTF of version 2, got {}", in_quotes(text));
   for (const GltfValue& required : items(member(root(), "extensionsRequired"))) {
     const std::string name = required.json->is_string() ? required.json->get<std::string>() : "";
-    // looks, and whole numbers as coordinates, which every accessor may have here
+    // materials, and integer coordinates, which are accepted in every accessor here
     const bool harmless = name.starts_with("KHR_materials") || name.starts_with("KHR_texture") ||
                           name.starts_with("KHR_lights") || name.starts_with("EXT_texture") ||
                           name == "KHR_mesh_quantization";

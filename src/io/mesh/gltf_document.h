@@ -1,4 +1,4 @@
-// A glTF file's JSON and buffers, checked: every index, count and byte before it is used.
+// JSON and buffers of a glTF file; every index, count and byte range is checked before use.
 #pragma once
 #include <map>
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@
 
 namespace clench {
 
-/// A value of the file and its name in errors: "meshes[2].primitives[0]".
+/// A value of the file with its path for errors: "meshes[2].primitives[0]".
 struct GltfValue {
   const nlohmann::json* json = nullptr;
   std::string name;
@@ -21,19 +21,19 @@ struct GltfValue {
 
 class GltfDocument {
  public:
-  /// throws Error when it is no glTF 2, or needs an extension that changes its geometry
+  /// throws Error if it is not glTF 2, or requires an extension that changes its geometry
   explicit GltfDocument(const MeshInput& input);
 
   template <class... Args>
   [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
     throw Error(file_ + ": " + fmt::format(format, std::forward<Args>(args)...));
   }
-  /// A member of an object, or none.
+  /// A member of an object, or null.
   GltfValue member(const GltfValue& object, const char* key) const;
-  /// Item i of the file's array of that name, "meshes" say.   throws Error when there is none
+  /// Item i of the file's array of that name, for example "meshes".   throws Error if there is none
   GltfValue item(const char* array, int i, const std::string& expected_by) const;
-  int count(const char* array) const;  ///< 0 when there is no such array
-  /// Items of an array; none when there is none.
+  int count(const char* array) const;  ///< 0 if there is no such array
+  /// Items of an array; empty if there is none.
   std::vector<GltfValue> items(const GltfValue& array) const;
   GltfValue root() const { return {&json_, ""}; }
 
@@ -42,13 +42,13 @@ class GltfDocument {
   /// `count` finite numbers
   std::vector<double> numbers(const GltfValue& array, int count) const;
 
-  /// What an accessor stands for: `components` finite numbers each, in order.
+  /// Contents of an accessor: `components` finite numbers per element, in order.
   std::vector<double> read_floats(int accessor, int components, const std::string& expected_by);
   std::vector<int> read_indices(int accessor, const std::string& expected_by);
 
-  /// Bytes of an image: in a buffer, in the JSON, or of a file.
+  /// Bytes of an image from a buffer, from the JSON, or from a file.
   std::string image_bytes(int image, const std::string& expected_by);
-  /// Size of the file and of the buffers read so far.
+  /// Total size of the file and of the buffers read so far.
   size_t bytes() const { return bytes_; }
 
  private:
@@ -68,7 +68,7 @@ class GltfDocument {
   const MeshInput& input_;
   std::string file_;
   nlohmann::json json_;
-  bool binary_ = false;     // a .glb
+  bool binary_ = false;     // true for .glb
   std::string glb_buffer_;  // buffer 0 of a .glb
   std::map<int, std::string> buffers_;
   size_t bytes_;

@@ -41,7 +41,7 @@ Image decode_png(const std::string& bytes, const std::string& name, ImageBudget*
   return image;
 }
 
-// errors of libjpeg jump back to the read_head or read_rows that is running
+// on errors libjpeg jumps back into the active read_head or read_rows
 struct JpegErrors {
   jpeg_error_mgr base;
   std::jmp_buf back;
@@ -96,14 +96,14 @@ Image decode_jpeg(const std::string& bytes, const std::string& name, ImageBudget
       static_cast<int>(decoder.info.image_width), static_cast<int>(decoder.info.image_height), {}};
   image.pixels.resize(size_t{3} * image.width * image.height);
   if (!decoder.read_rows(image.pixels.data())) fail("{}: {}", name, decoder.errors.message);
-  // libjpeg fills the missing rows of a truncated file with gray, and only warns
+  // libjpeg fills the missing rows of a truncated file with gray and only warns
   if (decoder.errors.base.num_warnings > 0) fail("{}: the image is damaged or cut short", name);
   return image;
 }
 
 Eigen::Vector3f color_at(const Image& image, const Eigen::Vector2d& uv) {
   const auto wrapped = [](double x, int count) {
-    const double part = x - std::floor(x);  // in [0, 1], 1 by rounding
+    const double part = x - std::floor(x);  // in [0, 1]; rounding may give 1
     return std::min(static_cast<int>(part * count), count - 1);
   };
   const size_t x = static_cast<size_t>(wrapped(uv.x(), image.width)),
@@ -130,7 +130,7 @@ Image decode_image(const std::string& bytes, const std::string& name, ImageBudge
 std::string encode_as_jpeg(const Image& image, int quality) {
   jpeg_compress_struct info = {};
   jpeg_error_mgr errors = {};
-  info.err = jpeg_std_error(&errors);  // its errors are those of memory and of wrong calls
+  info.err = jpeg_std_error(&errors);  // fails only for lack of memory or wrong calls
   jpeg_create_compress(&info);
   unsigned char* bytes = nullptr;
   unsigned long count = 0;
@@ -157,11 +157,11 @@ std::string encode_as_jpeg(const Image& image, int quality) {
 }
 
 Eigen::Vector3f mean_color(const Image& image, std::span<const Eigen::Vector2d> corners) {
-  constexpr int steps = 6;  // along each side of a triangle
+  constexpr int steps = 6;  // per side of a triangle
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   int count = 0;
-  // centroids of the parts of each triangle of the fan: first the parts oriented as it is, then the
-  // reversed ones
+  // sample the centroids of small parts of each triangle of the fan: parts with its orientation
+  // first, then the reversed ones
   for (size_t k = 1; k + 1 < corners.size(); ++k)
     for (const double middle : {1.0 / 3, 2.0 / 3})
       for (int i = 0; i < steps; ++i)

@@ -12,11 +12,11 @@ namespace clench {
 /// Largest image that is decoded [pixels].
 inline constexpr int64_t max_image_pixels = int64_t{1} << 26;
 
-/// Bounds the memory that the images of one file take.
+/// Limits the memory used by the images of one file.
 class ImageBudget {
  public:
   /// Adds an image of that size [pixels] to the total.
-  /// throws  Error when all images together have more than twice max_image_pixels
+  /// throws  Error if all images together have more than twice max_image_pixels
   void add(int64_t width, int64_t height, const std::string& name);
 
  private:
@@ -25,15 +25,15 @@ class ImageBudget {
 
 /// Decodes a PNG or JPEG file; its first bytes determine the format. Transparent pixels are blended
 /// with white. Its size is checked, and added to the budget, before memory for it is allocated.
-/// throws  Error "NAME: ..." when it has another format, is malformed, truncated or too large
+/// throws  Error "NAME: ..." if it has another format, is malformed, truncated or too large
 Image decode_image(const std::string& bytes, const std::string& name,
                    ImageBudget* budget = nullptr);
 
-/// A JPEG file of the image; quality 1 to 100.
+/// Encodes the image as JPEG; quality 1 to 100.
 std::string encode_as_jpeg(const Image& image, int quality);
 
-/// Mean color of an image over a triangle or polygon of texture coordinates, repeated beyond
-/// [0, 1]: u to the right, v down from the top.
+/// Mean color of an image over a triangle or polygon of texture coordinates. The image is repeated
+/// outside [0, 1]; u to the right, v down from the top.
 /// corners  at least 3, finite
 Eigen::Vector3f mean_color(const Image& image, std::span<const Eigen::Vector2d> corners);
 

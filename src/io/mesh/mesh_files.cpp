@@ -10,9 +10,9 @@ namespace clench {
 
 double guess_mesh_unit(double largest_side) {
   // Mesh files are in meters (robots, games) or in millimeters (machines, scanners, printers).
-  // What hands grasp and stand beside measures between a nut's 1 cm and a room's 10 m. Of the two
-  // units the one that brings the mesh nearer to the middle of that range, 0.32 m, by its ratio,
-  // is meters up to 10 units.
+  // Objects of grasping and their surroundings measure between 1 cm (a nut) and 10 m (a room). Of
+  // the two units we choose the one whose size is nearer, as a ratio, to the geometric mean of this
+  // range, 0.32 m: meters up to 10 units.
   constexpr double max_meters = 10;
   return largest_side <= max_meters ? 1 : units::millimeter;
 }
@@ -37,7 +37,7 @@ static void set_unit(GeometryBuilder& builder, const std::string& file,
   }
 }
 
-/// The turn that brings the file's upward axis to z, its front to -y.
+/// Rotation that turns the file's up axis to z and its front to -y.
 static Eigen::Matrix3d turn_up(char up) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   if (up == 'y') turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
@@ -45,7 +45,7 @@ static Eigen::Matrix3d turn_up(char up) {
   return turn;
 }
 
-/// returns  do colors come from the file?
+/// returns  true if colors come from the file
 static bool read_triangles(const MeshInput& input, GeometryBuilder& builder) {
   const std::string ending = ending_of(input.path);
   const bool given = input.format != GeometryFormat::none;
@@ -73,7 +73,7 @@ static bool read_triangles(const MeshInput& input, GeometryBuilder& builder) {
 
 /// Adds the faces of the convex hull of all vertices, which must span a solid.
 static void add_hull(const std::string& file, GeometryBuilder& builder) {
-  constexpr size_t max_points = 1'000'000;  // the hull's cost may grow with their square
+  constexpr size_t max_points = 1'000'000;  // the cost of a hull may be quadratic
   if (builder.vertex_count() > max_points)
     fail("{}: expected triangles, or at most {} points, got {} points", file, max_points,
          builder.vertex_count());
@@ -93,7 +93,7 @@ Geometry read_mesh(const MeshInput& input) {
   GeometryBuilder builder;
   builder.progress = options.progress;
   builder.limit_to(input.bytes.size());
-  builder.report.unit_source = UnitSource::guess;  // until the file says it
+  builder.report.unit_source = UnitSource::guess;  // unless the file names a unit
   const bool colors_given = read_triangles(input, builder);
   if (builder.triangle_count() == 0 && input.bare_points == BarePoints::hull &&
       builder.vertex_count() > 3)

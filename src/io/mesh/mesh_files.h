@@ -1,4 +1,4 @@
-// Geometry from mesh files, which say nothing of masses: OBJ, STL, PLY, OFF, glTF and COLLADA.
+// Geometry from mesh files, which do not contain masses: OBJ, STL, PLY, OFF, glTF and COLLADA.
 #pragma once
 #include <filesystem>
 
@@ -7,19 +7,19 @@
 
 namespace clench {
 
-/// Triangles in meters, by options.mesh_scale, else by the unit that the file names, else by
-/// options.silent_mesh_unit, else by a guess from the size, which is noted.
-/// format  none: the one of the ending
-/// throws Error  "part.stl: ..." when malformed, empty or cut short
+/// Triangles in meters, in the unit given by options.mesh_scale, otherwise by the file, otherwise
+/// by options.silent_mesh_unit. Otherwise the unit is guessed from the size, with a note.
+/// format  none: determined by the ending
+/// throws Error  "part.stl: ..." if malformed, empty or truncated
 Geometry read_mesh_file(const std::filesystem::path& path, const ReadOptions& options,
                         GeometryFormat format = GeometryFormat::none,
                         BarePoints bare_points = BarePoints::refused);
 
-/// The same of a file that has been read.
+/// The same for a file that has been read.
 Geometry read_mesh(const MeshInput& input);
 
-/// The unit [m] of a mesh whose largest side has that length, if nobody says: meters up to ten
-/// units, millimeters beyond.
+/// The guessed unit [m] of a mesh whose largest side has that length: meters up to ten units,
+/// millimeters beyond.
 double guess_mesh_unit(double largest_side);
 
 }  // namespace clench

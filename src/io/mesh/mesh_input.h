@@ -1,4 +1,4 @@
-// What every mesh reader is given.
+// Input of all mesh readers.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -9,22 +9,24 @@
 
 namespace clench {
 
-/// What a file of points without triangles means.
+/// How to treat a file of points without triangles.
 enum class BarePoints { refused, hull };
 
 struct MeshInput {
-  const std::filesystem::path& path;  ///< its name is shown in errors; files it names lie beside it
-  const std::string& bytes;           ///< what the file holds
+  /// its name is shown in errors; files that it names are relative to its folder
+  const std::filesystem::path& path;
+  const std::string& bytes;  ///< contents of the file
   const ReadOptions& options;
-  GeometryFormat format = GeometryFormat::none;  ///< none: the one of the ending
+  GeometryFormat format = GeometryFormat::none;  ///< none: determined by the ending
   BarePoints bare_points = BarePoints::refused;
 
   std::string file() const { return path.filename().string(); }
   const Diagnostics& diagnostics() const { return options.diagnostics; }
 };
 
-/// Runs a reader of a scene, which has read() and warnings(); its sentences get the file's name.
-/// returns  do colors come from the file?
+/// Runs a reader of a scene, which has read() and warnings(); prepends the file's name to its
+/// messages.
+/// returns  true if colors come from the file
 template <class MakeReader>
 bool run_reader(const MeshInput& input, MakeReader make) {
   const std::string file = input.file();
@@ -35,7 +37,7 @@ bool run_reader(const MeshInput& input, MakeReader make) {
       input.diagnostics().warn(Place(file), "{}", warning);
     return colors;
   } catch (const Error& error) {
-    // what the builder refuses does not name the file
+    // errors of the builder do not name the file
     const std::string what = error.what();
     if (what.starts_with(file)) throw;
     fail(error.kind(), "{}: {}", file, what);

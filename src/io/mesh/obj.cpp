@@ -13,18 +13,18 @@ namespace clench {
 
 namespace {
 
-constexpr size_t max_material_files = 1000;  // looked for
+constexpr size_t max_material_files = 1000;  // limit of files searched
 
-/// What a face needs when all points are known.
+/// Data of a face, completed when all points are known.
 struct Face {
-  int first;  // of its corners
+  int first;  // index of its first corner
   int line;
   int material;  // number of its name, or -1
 };
 
 struct UsedMaterial {
   int number;
-  Place place;  // where it is used first
+  Place place;  // of its first use
 };
 
 class ObjReader {
@@ -55,14 +55,14 @@ class ObjReader {
   WordReader words_;
   std::vector<Eigen::Vector3f> point_colors_;
   std::vector<Eigen::Vector2d> texture_points_;
-  std::vector<int> corners_, texture_corners_;  // of the latter -1: none
+  std::vector<int> corners_, texture_corners_;  // of texture corners, -1: none
   std::vector<Face> faces_;
   int material_ = -1;
   std::map<std::string, UsedMaterial> used_materials_;  // by the names that faces use
   MtlMaterials materials_;                              // by the names that MTL files define
-  size_t material_files_ = 0;                           // that were looked for
+  size_t material_files_ = 0;                           // number searched so far
   std::string object_;                                  // named by the last line "o NAME"
-  std::vector<std::string> objects_;                    // names of those with faces, in order
+  std::vector<std::string> objects_;                    // names of objects with faces, in order
   std::set<std::string> warned_;
   std::vector<Diagnostic> warnings_;
 };
@@ -104,11 +104,11 @@ void ObjReader::read_texture_point() {
     words_.fail("expected at most {} texture coordinates", max_mesh_vertices);
   const bool finite = u && std::isfinite(*u) && v && std::isfinite(*v);
   if (!finite) warn_once("vt", "expected two numbers after vt; (0, 0) is used");
-  // v counts upwards
+  // v points up
   texture_points_.push_back(finite ? Eigen::Vector2d(*u, 1 - *v) : Eigen::Vector2d::Zero());
 }
 
-// number of a texture point of a corner "7/3/1", from 0; -1: none
+// number of the texture point of a corner "7/3/1", from 0; -1: none
 static int texture_corner(std::string_view word, size_t count) {
   const size_t slash = word.find('/');
   if (slash == word.npos) return -1;
@@ -125,7 +125,7 @@ void ObjReader::read_face() {
     const auto number = parse_integer(word.substr(0, word.find('/')));
     if (!number || word.find_first_not_of("+-0123456789/") != std::string_view::npos)
       words_.fail("expected numbers of points after f, got {}", in_quotes(word));
-    // points that come later are counted when all are known
+    // references to later points are resolved after the last line
     if (*number == 0 || *number < -points)
       words_.fail("expected one of {} points after f, got {}", points, *number);
     corners_.push_back(*number > 0 ? *number - 1 : points + *number);
@@ -142,7 +142,7 @@ void ObjReader::read_face() {
   if (objects_.empty() || objects_.back() != object_) objects_.push_back(object_);
 }
 
-// Every object of the file becomes part of one body.
+// All objects of the file become one body.
 void ObjReader::note_objects() {
   if (objects_.size() < 2 || !input_.diagnostics()) return;
   if (objects_.front().empty()) objects_.front() = "without a name";
@@ -178,7 +178,7 @@ void ObjReader::read_other(std::string_view keyword) {
 }
 
 void ObjReader::read_materials(const std::string& names) {
-  // one name, with blanks in it perhaps, or several
+  // one name, possibly with blanks, or several names
   std::vector<std::string> candidates = {names};
   for (const auto word : split_words(names, "", max_material_files)) candidates.emplace_back(word);
   material_files_ += candidates.size();
@@ -203,7 +203,7 @@ void ObjReader::read_materials(const std::string& names) {
     input_.diagnostics().note(words_.place(), "{}; the body has no colors of its own", missing);
 }
 
-// texture coordinates of a face, in the image of its material; empty: it has none
+// texture coordinates of a face in the image of its material; empty: it has none
 std::vector<Eigen::Vector2d> ObjReader::image_points(const Face& face, size_t end,
                                                      const MtlMaterial& look) const {
   std::vector<Eigen::Vector2d> out;
@@ -215,7 +215,7 @@ std::vector<Eigen::Vector2d> ObjReader::image_points(const Face& face, size_t en
   return out;
 }
 
-// by their numbers; those with images become textures of the builder
+// by number; materials with images become textures of the builder
 std::vector<MtlMaterial> ObjReader::used_materials() {
   std::vector<MtlMaterial> out(used_materials_.size());
   for (const auto& [name, used] : used_materials_)

@@ -32,7 +32,7 @@ struct ImageStatement {
   bool clamped = false;
   Eigen::Vector2d scale = Eigen::Vector2d::Ones(), offset = Eigen::Vector2d::Zero();
   std::string file = {};
-  std::string unused = {};  ///< an option that has no effect here; empty: none
+  std::string unused = {};  ///< an option without effect here; empty: none
 };
 
 /// source  Wavefront MTL: options of texture maps

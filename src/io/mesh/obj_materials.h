@@ -15,16 +15,16 @@ namespace clench {
 struct MtlMaterial {
   Eigen::Vector3f color = Appearance().color;
   float transparency = 0;
-  std::shared_ptr<const Image> image = {};  ///< null: one color
-  bool colored = false;                     ///< does the file give the color?
+  std::shared_ptr<const Image> image = {};  ///< null: uniform color
+  bool colored = false;                     ///< true if the file gives the color
   int number = -1;                          ///< of its texture in the builder
-  bool clamped = false;                     ///< does the image end at its edges?
-  /// texture coordinates of the file to those of the image, v upward
+  bool clamped = false;                     ///< true if the image is not repeated beyond its edges
+  /// maps texture coordinates of the file to those of the image, v upward
   Eigen::Vector2d image_scale = Eigen::Vector2d::Ones(), image_offset = Eigen::Vector2d::Zero();
 
-  /// A point of the file, v down from the top, in the image.
+  /// A texture point of the file in coordinates of the image, v down from the top.
   Eigen::Vector2d placed(const Eigen::Vector2d& uv) const;
-  /// A material without a color, or a black one, does not tint its image.
+  /// If a material has no color, or a black one, its image is not tinted.
   Texture texture() const;
 };
 
@@ -34,7 +34,7 @@ struct MtlMaterials {
   std::map<std::string, MtlMaterial> by_name = {};
   TextureFiles images = {};
 
-  /// Adds the materials of an MTL file, which `input` names.
+  /// Adds the materials of an MTL file named by `input`.
   void read(const std::filesystem::path& path, const MeshInput& input, const WarnOnce& warn);
 };
 

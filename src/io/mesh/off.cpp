@@ -34,7 +34,7 @@ class OffReader {
   std::set<std::string> warned_;
 };
 
-/// What stands before "OFF": ST texture coordinates, C colors, N normals of the vertices.
+/// Letters before "OFF": ST texture coordinates, C colors, N normals of the vertices.
 void OffReader::read_kind(std::string_view kind) {
   for (size_t i = 0; i < kind.size(); ++i) {
     if (kind.substr(i, 2) == "ST")
@@ -48,7 +48,7 @@ void OffReader::read_kind(std::string_view kind) {
   }
 }
 
-/// Counts follow the keyword or stand alone; "OFF8 6 12" is seen, too.
+/// The counts follow the keyword, which may be missing; "OFF8 6 12" is accepted, too.
 void OffReader::read_header() {
   if (!words_.next_line()) words_.fail("expected 'OFF', got the end of the file");
   std::string_view word = words_.word();
@@ -62,7 +62,7 @@ void OffReader::read_header() {
   if (lower_case(word) == "binary") words_.fail("expected OFF as text, got binary OFF");
   vertices_ = read_count(word, "number of vertices");
   faces_ = read_count(words_.word_anywhere(), "number of faces");
-  words_.word();  // the number of edges is nobody's business, and often wrong or absent
+  words_.word();  // the number of edges is unused, and often wrong or missing
   if (words_.words_left() > 0) warn_once("what follows the counts is not used");
 }
 
@@ -81,8 +81,8 @@ void OffReader::warn_once(const std::string& sentence) {
   if (warned_.insert(sentence).second) input_.diagnostics().warn(words_.place(), "{}", sentence);
 }
 
-/// Three or four numbers of a line's rest: of 0..1 with a point in them, else of 0..255. The fourth
-/// is how much is not transparent.
+/// Three or four remaining numbers of a line: within 0..1 if one is written as a decimal, otherwise
+/// within 0..255. The fourth is the opacity.
 Eigen::Vector3f OffReader::read_color(int count, float* transparency) {
   Eigen::Vector4d color(0, 0, 0, 1);
   bool whole = true;
@@ -106,7 +106,7 @@ void OffReader::read_vertices() {
     builder_.add_vertex({x, y, z}, words_.line());
     for (int k = 0; normals_ && k < 3; ++k) words_.number("normal");
     if (vertex_colors_)
-      colors_.push_back(read_color(3));  // what may follow is opacity
+      colors_.push_back(read_color(3));  // opacity may follow
     else if (!texture_ && words_.words_left() > 0)
       warn_once("what follows a vertex's numbers is not used");
   }
@@ -116,7 +116,7 @@ void OffReader::read_faces() {
   std::vector<int> corners;
   for (int i = 0; i < faces_; ++i) {
     to_line("face", i, faces_);
-    // every corner takes a character of the text and a blank, so its size bounds their number
+    // every corner takes at least two characters, so the size of the text limits their number
     const int count = words_.integer("corners of a face", 0, static_cast<int>(max_mesh_vertices));
     corners.clear();
     for (int k = 0; k < count; ++k) {

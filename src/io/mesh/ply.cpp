@@ -11,7 +11,7 @@ namespace clench {
 
 namespace {
 
-/// The values behind the header, one after another, whichever way they are written.
+/// The values after the header, read one by one in any encoding.
 class Values {
  public:
   Values(WordReader words, std::string_view bytes, PlyHeader::Format format)
@@ -19,9 +19,9 @@ class Values {
         bytes_(bytes, format == PlyHeader::Format::big_endian),
         ascii_(format == PlyHeader::Format::ascii) {}
 
-  /// The header's next element: faults found now are of the file as a whole.
+  /// Starts the next element of the header: errors found from here on concern the complete file.
   void begin_all() { element_ = nullptr; }
-  /// `name` and `i` of `count`: the element that comes next, for errors
+  /// `name` and `i` of `count`: the next element, for errors
   void begin(const std::string& name, int i, int count);
   void end();
   double next(NumberType type);
@@ -30,7 +30,7 @@ class Values {
   [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
     throw PlacedError(place(), fmt::format(format, std::forward<Args>(args)...));
   }
-  /// what is wrong with the end of the file, if anything
+  /// error at the end of the file, if any
   std::optional<Diagnostic> surplus();
   Place place() const;
   int line() const { return ascii_ ? words_.line() : 0; }
@@ -119,11 +119,11 @@ class PlyReader {
   Values& values_;
   GeometryBuilder& builder_;
   bool colored_ = false;
-  std::vector<Eigen::Vector3f> colors_;  // of vertices, when they have any
-  std::vector<int> indices_;             // of the face at hand
+  std::vector<Eigen::Vector3f> colors_;  // of vertices, if they have any
+  std::vector<int> indices_;             // of the current face
 };
 
-/// Which of red, green and blue the property is, or -1.
+/// Index of the color channel (red, green, blue) that the property holds, or -1.
 int channel(const PlyProperty& property) {
   static constexpr const char* names[] = {"red", "green", "blue"};
   for (int i = 0; i < 3; ++i)
@@ -144,7 +144,7 @@ void PlyReader::skip(const PlyProperty& property) {
 
 int PlyReader::read_count(const PlyProperty& list) {
   const double count = values_.next(list.count_type);
-  // every item of a list is a byte at least, so the file's size bounds their number
+  // every item of a list takes at least one byte, so the size of the file limits their number
   constexpr int most = 1 << 30;
   if (!(count >= 0))
     values_.fail("expected a count of {} from 0 on, got {}", excerpt(list.name), count);
@@ -204,7 +204,7 @@ Eigen::Vector3f PlyReader::mean_color() const {
   return sum / static_cast<float>(indices_.size());
 }
 
-/// Each vertex after the second makes a triangle with the two before; -1 begins anew.
+/// Each vertex after the second makes a triangle with the two before; -1 starts a new strip.
 void PlyReader::add_strips(const Eigen::Vector3f& color) {
   size_t start = 0;
   for (size_t i = 0; i < indices_.size(); ++i) {
@@ -252,14 +252,14 @@ void PlyReader::read_faces(const PlyElement& element, bool strips) {
 }
 
 void PlyReader::step_over(const PlyElement& element) {
-  // without properties there is nothing to step over, however many there are
+  // elements without properties take no bytes, whatever their count
   for (int i = 0; i < element.count && !element.properties.empty(); ++i) {
     values_.begin(element.name, i, element.count);
     for (const PlyProperty& property : element.properties) skip(property);
   }
 }
 
-/// Where the values begin: behind the line "end_header".
+/// Offset of the first value, after the line "end_header".
 size_t header_size(std::string_view bytes) {
   size_t at = 0;
   const bool two = without_mark(bytes).starts_with("ply\r\n");
@@ -284,7 +284,7 @@ bool read_ply(const MeshInput& input, GeometryBuilder& builder) {
   const bool ascii = header.format == PlyHeader::Format::ascii;
   builder.report.format = ascii ? "ascii PLY" : "binary PLY";
   if (ascii) {
-    // the same place in the whole text
+    // move to the same line of the complete text
     const int line = words.line();
     text = plain_text(bytes);
     words = WordReader(file, text);

@@ -1,4 +1,4 @@
-// The header of a PLY file: which elements and properties follow, and how they are written.
+// Header of a PLY file: its elements and properties, and the encoding of the values.
 #pragma once
 #include <string>
 #include <vector>
@@ -29,7 +29,7 @@ struct PlyHeader {
 
 bool is_whole(NumberType type);
 
-/// The lines from "ply" to "end_header".
+/// Reads the lines from "ply" to "end_header".
 /// throws Error  "part.ply:3: expected ascii, binary_little_endian or binary_big_endian, got 'x'"
 PlyHeader read_ply_header(WordReader& words);
 

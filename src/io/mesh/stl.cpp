@@ -19,7 +19,7 @@ size_t facet_count(std::string_view bytes) {
   return reader.next<uint32_t>();
 }
 
-/// The text without bytes of value 0 and blanks at its end, with which some programs fill a block.
+/// The text without trailing zero bytes and blanks, with which some programs fill a block.
 std::string_view ascii_part(std::string_view bytes) {
   const size_t last = bytes.find_last_not_of(std::string_view("\0 \t\r\n\v\f\x1A", 8));
   return bytes.substr(0, last == std::string_view::npos ? 0 : last + 1);
@@ -27,7 +27,7 @@ std::string_view ascii_part(std::string_view bytes) {
 
 bool begins_solid(std::string_view word) { return word == "solid" || word == "facet"; }
 
-/// Does a line near the start begin a solid? Some programs write their names before it.
+/// True if a line near the start begins a solid; some programs write their names before it.
 bool has_solid_line(std::string_view text) {
   constexpr size_t max_preface = 10'000;  // bytes
   text = without_mark(text).substr(0, max_preface);
@@ -39,7 +39,7 @@ bool has_solid_line(std::string_view text) {
   return false;
 }
 
-/// Binary files may begin with "solid", too; then their size or the bytes of value 0 decide.
+/// Binary files may begin with "solid", too; then the file's size or zero bytes decide.
 bool is_ascii(std::string_view bytes) {
   if (bytes.size() >= header_bytes &&
       bytes.size() == header_bytes + facet_bytes * facet_count(bytes))
@@ -55,7 +55,7 @@ void add_facet(GeometryBuilder& builder, const std::array<Eigen::Vector3d, 3>& c
   builder.add(corners, Appearance().color, 0, line);
 }
 
-/// The next word in lower case, behind comments; empty at the end of the file.
+/// The next word in lower case, after comments; empty at the end of the file.
 std::string next_word(WordReader& words) {
   std::string_view word = words.word_anywhere();
   while (word.starts_with("//")) {
@@ -94,7 +94,7 @@ void read_loop(WordReader& words, GeometryBuilder& builder) {
   add_facet(builder, corners, words.line());
 }
 
-/// From the normal on, which some programs write as no number.
+/// Reads a facet from the normal on; some programs write normals that are not numbers.
 void read_facet(WordReader& words, GeometryBuilder& builder) {
   for (int i = 0; i < 3; ++i) expect(words, "a normal");
   expect_word(words, "outer");
@@ -103,8 +103,8 @@ void read_facet(WordReader& words, GeometryBuilder& builder) {
   expect_word(words, "endfacet");
 }
 
-/// Steps over the name of a solid to the end of its line, or behind "facet normal" on that line.
-/// returns  does a facet begin there?
+/// Skips the name of a solid up to the end of its line, or up to "facet normal" on that line.
+/// returns  true if a facet begins there
 bool skip_name(WordReader& words) {
   bool is_facet = false;
   for (std::string word; !(word = lower_case(words.word())).empty();) {
@@ -114,7 +114,7 @@ bool skip_name(WordReader& words) {
   return false;
 }
 
-/// Steps over the lines before the first solid.
+/// Skips the lines before the first solid.
 std::string first_solid(const MeshInput& input, WordReader& words) {
   std::string word = lower_case(words.word_anywhere());
   if (begins_solid(word) || word.empty()) return word;
@@ -126,7 +126,7 @@ std::string first_solid(const MeshInput& input, WordReader& words) {
   return word;
 }
 
-/// One solid or several; the lines around their facets may be missing.
+/// One or several solids; the lines around their facets may be missing.
 void read_ascii(const MeshInput& input, WordReader& words, GeometryBuilder& builder) {
   const auto repair = [&](const char* missing, const std::string& word, const char* done) {
     input.diagnostics().repaired(words.place(), "expected '{}', got {}; the solid {} here", missing,

@@ -8,7 +8,7 @@
 
 namespace clench {
 
-static constexpr size_t max_texture_files = 100;  // of one file
+static constexpr size_t max_texture_files = 100;  // limit of images per file
 
 std::shared_ptr<const Image> TextureFiles::decode(const std::string& key, const std::string& shown,
                                                   const std::function<std::string()>& read,

@@ -1,4 +1,4 @@
-// Images that files name as textures: each read once, within a budget.
+// Images that files name as textures; each is read once, within a memory budget.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace clench {
 
-/// Longest side of an image that is kept; larger ones are halved [pixels].
+/// Longest side of stored images; larger ones are halved until they fit [pixels].
 inline constexpr int largest_texture_side = 4096;
 
 class TextureFiles {
@@ -19,11 +19,11 @@ class TextureFiles {
   using Warn = std::function<void(const std::string& sentence)>;
 
   /// The image that a file names.
-  /// warn     told once of each image that cannot be read
+  /// warn     called once for each image that cannot be read
   /// returns  null if it cannot be read
   std::shared_ptr<const Image> find(const std::string& name, const std::filesystem::path& referrer,
                                     const ReadOptions& options, const Warn& warn);
-  /// The image that `read` returns as the bytes of a file, kept under a key; otherwise as find.
+  /// The image decoded from the bytes that `read` returns, stored under a key; otherwise as find.
   std::shared_ptr<const Image> decode(const std::string& key, const std::string& shown,
                                       const std::function<std::string()>& read, const Warn& warn);
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr uint32_t lines_between_checks = 1 << 12;
 
-/// Appends a line per vertex and per triangle, each behind its prefix.
+/// Appends a line per vertex and per triangle, each after its prefix.
 /// first  number of the first vertex
 void append_lines(std::string& out, const Mesh& mesh, std::string_view vertex,
                   std::string_view triangle, int first) {
@@ -56,7 +56,7 @@ std::string ply_bytes(const Mesh& mesh) {
   return out;
 }
 
-// of three points; along z when they span no area
+// of three points; along z if they span no area
 Eigen::Vector3d normal_of(const std::array<Eigen::Vector3d, 3>& p) {
   const Eigen::Vector3d n = (p[1] - p[0]).cross(p[2] - p[0]);
   const double length = n.norm();
@@ -70,7 +70,8 @@ std::string stl_bytes(const Mesh& mesh, const std::string& file) {
     if (p.cwiseAbs().maxCoeff() > largest)
       fail("{}: expected coordinates within {:.4g} m, as .stl holds them, got {}", file, largest,
            p.cwiseAbs().maxCoeff());
-  std::string out = "meters, by clench";  // a header that begins with "solid" would be text
+  // a header that begins with "solid" would mark a text file
+  std::string out = "meters, by clench";
   out.resize(80, ' ');
   append_little_endian(out, static_cast<uint32_t>(mesh.triangles.size()));
   StopCheck check(lines_between_checks);

@@ -1,4 +1,4 @@
-// Triangles to mesh files: the other side of read_mesh_file.
+// Writes triangles to mesh files: the counterpart of read_mesh_file.
 #pragma once
 #include <filesystem>
 #include <string_view>
@@ -7,16 +7,16 @@
 
 namespace clench {
 
-/// Vertices in meters, triangles in their order, as .obj .off .ply (binary) .stl (binary), by the
-/// ending. Numbers come back to the bit, but from .stl, which holds 32 bits of each.
-/// throws Error when the ending is another one, a number is beyond the format's, or the file cannot
-/// be written
+/// Writes vertices in meters and triangles in order, as .obj .off .ply (binary) .stl (binary), by
+/// the ending. Numbers are read back bit-exactly, except from .stl, which stores 32 bits for each.
+/// throws Error if the ending is another one, a number exceeds the range of the format, or the file
+/// cannot be written
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path);
 
-/// The text of an .off, meters.
+/// The text of an .off file, in meters.
 std::string off_text(const Mesh& mesh);
 
-/// Is it the ending of a mesh file that can be written? ".obj", in lower case
+/// True for endings of mesh files that can be written: ".obj", in lower case.
 bool is_mesh_ending(std::string_view ending);
 
 }  // namespace clench

@@ -21,9 +21,9 @@ void tell_world_geoms(const Worldbody& world, const FileCache& cache) {
       count == 1 ? "a geom" : fmt::format("{} geoms", count), count == 1 ? "is" : "are");
 }
 
-/// Chooses the body with the most joints as the robot; other bodies that move freely are objects
-/// beside it. A single body without joints is the base; otherwise the world is.
-/// fixed_base  receives: is the tree's first body fixed to the world?
+/// Chooses the body with the most joints as the robot; other bodies that move freely are objects. A
+/// single body without joints is the base; otherwise the world is.
+/// fixed_base  output: true if the tree's first body is fixed to the world
 MjcfTree read_one_robot(MjcfModel& model, FileCache& cache, bool& fixed_base) {
   std::vector<TopBody> bodies = model.worldbody().bodies;
   if (bodies.empty()) fail("{}: expected bodies in <worldbody>, got none", model.document().file());

@@ -1,4 +1,4 @@
-// Robots and worlds from MJCF, the format of MuJoCo.
+// Reads robots and worlds from MJCF, the format of MuJoCo.
 #pragma once
 #include <filesystem>
 
@@ -9,12 +9,12 @@ namespace clench {
 
 /// throws Error  "hand.xml:31: joint: range: expected 2 numbers, got 3"
 RobotSpec read_robot_mjcf(const std::filesystem::path& path, FileCache& cache);
-/// One of the robots that read_world_mjcf finds: that whose tree of joints begins with a body of
+/// One of the robots that read_world_mjcf finds: the one whose joint tree begins with the body of
 /// that name.
-/// throws Error  that lists the names when there is none
+/// throws Error  that lists the names if there is none
 RobotSpec read_robot_mjcf(const std::filesystem::path& path, const std::string& body,
                           FileCache& cache);
-/// A scene: every tree of joints a robot, free bodies objects, what is fixed obstacles.
+/// A scene: each joint tree becomes a robot, free bodies become objects, fixed bodies obstacles.
 WorldSpec read_world_mjcf(const std::filesystem::path& path, FileCache& cache);
 
 }  // namespace clench

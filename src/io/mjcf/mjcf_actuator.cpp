@@ -14,7 +14,7 @@ constexpr std::string_view shortcuts[] = {
     "general", "motor",    "position", "velocity", "intvelocity", "damper", "cylinder",
     "muscle",  "adhesion", "dcmotor",  "pid",      "orientation", "plugin"};
 
-/// Parameters of an actuator, written by the elements of its class and then by its own.
+/// Parameters of an actuator, set by the elements of its class and then by its own element.
 struct Law {
   std::string dynamics = "none", gain_type = "fixed", bias_type = "none";
   std::array<double, 9> gain = {1};
@@ -118,8 +118,8 @@ void Law::read(const XmlElement& element, MjcfDocument& document) {
   }
 }
 
-/// Forces of a muscle: from the largest active force at rest, with the passive one where it is
-/// longest, to 0. Its length, and how strong a peak force < 0 is, are not known here.
+/// Range of the force of a muscle: from the largest active force at rest, plus the passive force at
+/// its largest length, to 0. Its length, and the peak force if force < 0, are not known here.
 /// source  MuJoCo: Modeling, "Muscle actuators": FL <= 1, FP rises beyond the optimal length
 std::array<double, 2> muscle_range(const std::array<double, 9>& prm, double activation) {
   const double peak = prm[2];
@@ -131,8 +131,8 @@ std::array<double, 2> muscle_range(const std::array<double, 9>& prm, double acti
   return {-peak * (activation + std::max(0.0, passive)), 0};
 }
 
-/// The range of an activation: of a filter, where it settles; of an integrator, where its control,
-/// one-sided perhaps, takes it from 0.
+/// The range of an activation: of a filter, its steady states; of an integrator, the values that it
+/// reaches from 0 with its control, which may be one-sided.
 std::array<double, 2> activations(const std::string& dynamics,
                                   const std::optional<std::array<double, 2>>& control,
                                   const std::optional<std::array<double, 2>>& limits) {

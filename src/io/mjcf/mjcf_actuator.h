@@ -22,20 +22,20 @@ struct MjcfActuator {
 std::optional<std::array<double, 2>> limited_range(const XmlValues& values, MjcfDocument& document,
                                                    const char* range, const char* limited_name);
 
-/// Actuators that <option> switches off: all by <flag actuation="disable"/>, or those of some groups.
+/// Actuators disabled by <option>: all by <flag actuation="disable"/>, or those of some groups.
 struct MjcfActuatorSwitches {
   bool all_off = false;
   std::set<int> groups_off;
-  Place place;  ///< of the element that does; empty: none is off
+  Place place;  ///< of the element that disables them; empty: none is disabled
 
   bool off(int group) const { return all_off || groups_off.contains(group); }
 };
 /// throws  Error for an invalid number or word
 MjcfActuatorSwitches read_actuator_switches(const MjcfDocument& document);
 
-/// All shortcuts of <general>, such as <motor> and <position>, write into one set of parameters:
-/// those of a class, whatever they are called there, are the defaults of any actuator of the class.
-/// source  MuJoCo 3: XML reference, "actuator", and mjs_setToPosition and its siblings
+/// All shortcuts of <general>, such as <motor> and <position>, set the same parameters: those of a
+/// class, under any of these names, are the defaults of all actuators of the class.
+/// source  MuJoCo 3: XML reference, "actuator", and mjs_setToPosition and related functions
 /// throws  Error for an invalid number or word
 MjcfActuator read_mjcf_actuator(MjcfDocument& document, const XmlElement& element);
 

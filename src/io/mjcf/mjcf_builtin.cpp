@@ -17,7 +17,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int max_resolution = 300;  // some 200,000 triangles
+constexpr int max_resolution = 300;  // about 200,000 triangles
 
 struct Params {
   const std::string& kind;
@@ -29,7 +29,7 @@ struct Params {
       fail("{}: {}: expected a whole number from {} to {}, got {}", kind, name, low, high, x);
     return floor_int(x);
   }
-  /// greater than low, or equal to it where `closed`
+  /// greater than low, or equal to it if `closed`
   double number(int i, const char* name, double low, bool closed, double high) const {
     const double x = values[i];
     if (!(closed ? x >= low : x > low) || !(x <= high))
@@ -39,7 +39,8 @@ struct Params {
   }
 };
 
-/// Unit sphere from an icosahedron: triangles are divided into four, vertices moved onto the sphere.
+/// Unit sphere from an icosahedron: triangles are divided into four, vertices moved onto the
+/// sphere.
 Mesh sphere(const Params& params) {
   const int cuts = params.integer(0, "subdivision", 0, 4);
   const double a = 1 / std::sqrt(1 + std::numbers::phi * std::numbers::phi),
@@ -69,8 +70,8 @@ Mesh sphere(const Params& params) {
   return mesh;
 }
 
-/// The upper half of an octahedron whose faces are cut evenly, moved onto the unit sphere, and a
-/// flat disk below.
+/// The upper half of an octahedron whose faces are divided evenly, projected onto the unit sphere,
+/// and a flat disk below.
 Mesh hemisphere(const Params& params) {
   const int n = params.integer(0, "resolution", 0, 10) + 1;
   Mesh mesh;
@@ -173,7 +174,7 @@ Mesh supertorus(const Params& params) {
   return mesh;
 }
 
-/// Centers of cells that divide a slice of the unit sphere about -z; points alone.
+/// Centers of cells that divide a part of the unit sphere around -z; points without triangles.
 Mesh wedge(const Params& params) {
   const int across = params.integer(0, "res_phi", 1, max_resolution),
             along = params.integer(1, "res_theta", 1, max_resolution);

@@ -1,4 +1,4 @@
-// Meshes that MJCF files name instead of giving them: <mesh builtin="sphere" params="2"/>.
+// Generates the built-in meshes of MJCF: <mesh builtin="sphere" params="2"/>.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,10 +7,11 @@
 
 namespace clench {
 
-/// The mesh of a kind: sphere, hemisphere, cone, supersphere, supertorus, wedge or plate, in the
-/// sizes of MuJoCo's documentation. A mesh of points alone, without triangles, means their hull.
+/// The mesh of a kind: sphere, hemisphere, cone, supersphere, supertorus, wedge or plate, with the
+/// sizes in MuJoCo's documentation. A mesh that consists only of points represents their convex
+/// hull.
 /// params  as MuJoCo documents them for each kind
-/// throws  Error  "cone: expected 2 parameters, got 1"  with the kind in front
+/// throws  Error  "cone: expected 2 parameters, got 1", beginning with the kind
 /// source  MuJoCo documentation, XML reference, asset/mesh/builtin
 Mesh builtin_mesh(const std::string& kind, const std::vector<double>& params);
 

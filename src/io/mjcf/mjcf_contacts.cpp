@@ -47,11 +47,11 @@ MjcfBits::MjcfBits(const std::vector<MjcfGeom>& geoms) {
 }
 
 void MjcfNamedPairs::add(const std::string& a, const std::string& b) {
-  constexpr size_t max_named = 200;  // a message has no room for more
+  constexpr size_t max_named = 200;  // enough for a message
   if (++count_ <= max_named) first_.push_back(fmt::format("'{}' and '{}'", excerpt(a), excerpt(b)));
 }
 
-/// Number of pairs of geoms of two bodies that their bits keep apart.
+/// Number of pairs of geoms of two bodies whose bits exclude collisions.
 static size_t pairs_apart(const MjcfBits& a, const MjcfBits& b) {
   size_t apart = 0;
   for (const MjcfBits::Kind& x : a.kinds)
@@ -97,7 +97,7 @@ MjcfListedBodies MjcfContacts::listed(
 
 namespace {
 
-/// Parts with the same bits. There are few such groups, so pairs are counted without visiting them.
+/// Parts with equal bits. There are few such groups, so that pairs are counted by group.
 struct PartGroup {
   std::vector<size_t> parts;
   std::map<std::pair<int, int>, size_t> owners;  // number of parts of each owner
@@ -184,7 +184,7 @@ void MjcfContacts::filter_links(MjcfTree& tree, bool fixed_base) {
     const bool fixed = link.parent >= 0 && link.joints.empty();
     piece[i] = fixed ? piece[link.parent] : i;
     carrier[i] = fixed ? carrier[link.parent] : link.parent < 0 ? -1 : piece[link.parent];
-    // a World excludes collisions of a link with the nearest link with a shape towards the base
+    // a World excludes collisions of a link with the nearest link that has a shape towards the base
     for (int up = link.parent; up >= 0 && neighbor[i] < 0; up = model.links[up].parent)
       if (model.links[up].body.shape || up == 0) neighbor[i] = up;
   }

@@ -10,13 +10,13 @@
 
 namespace clench {
 
-/// A <pair>: two geoms that collide whatever their bits say.
+/// A <pair>: two geoms that collide regardless of their bits.
 struct MjcfPair {
   XmlValues values;
   std::array<std::string, 2> geoms;
 };
 
-/// Collision bits of the geoms of a body, of those that collide.
+/// Collision bits of the colliding geoms of a body.
 struct MjcfBits {
   struct Kind {
     unsigned type = 0, affinity = 0;
@@ -27,8 +27,8 @@ struct MjcfBits {
   explicit MjcfBits(const std::vector<MjcfGeom>& geoms);
 };
 
-/// Pairs of bodies, by their numbers in a list, the smaller first, of which a <pair> lists geoms;
-/// and how many such pairs of geoms their bits would keep apart.
+/// Pairs of bodies (indices in a list, smaller first) for which a <pair> lists geoms, with the
+/// number of listed pairs of geoms whose bits would exclude their collision.
 using MjcfListedBodies = std::map<std::pair<size_t, size_t>, size_t>;
 
 /// A body of a scene, or a part of a robot.
@@ -41,13 +41,13 @@ struct MjcfPart {
 
 /// Pairs of parts with different owners that do not collide by their bits.
 struct MjcfKeptApart {
-  size_t by_bits = 0;  ///< pairs that share no bit, less those in `listed`
+  size_t by_bits = 0;  ///< pairs that share no bit, without those in `listed`
   size_t fixed = 0;    ///< pairs that share a bit, both fixed to the world
   /// pairs that share no bit, but collide because a <pair> lists geoms of theirs
   std::vector<std::pair<size_t, size_t>> listed;
 };
 
-/// The first names of a list that may be long, and how many there are.
+/// The first names of a list that may be long, and their total number.
 class MjcfNamedPairs {
  public:
   void add(const std::string& a, const std::string& b);
@@ -67,21 +67,22 @@ class MjcfContacts {
   const std::vector<MjcfPair>& pairs() const { return pairs_; }
   /// bodies  the geoms of each
   MjcfListedBodies listed(const std::vector<const std::vector<MjcfGeom>*>& bodies) const;
-  /// Do any of two bodies' geoms collide? Geoms of one body are one surface here: bodies of which
-  /// only some pairs of geoms collide are remembered.
-  /// listed  number of pairs of their geoms that a <pair> lists against their bits; null: none is
-  ///         listed
+  /// True if any geoms of the two bodies collide. The geoms of a body form one surface here, so
+  /// bodies of which only some pairs of geoms collide are recorded for tell().
+  /// listed  number of pairs of their geoms that a <pair> lists although their bits exclude them;
+  ///         null: none is listed
   bool collide(const MjcfBits& a, const MjcfBits& b, const size_t* listed,
                const std::string& name_a, const std::string& name_b);
   /// Finds the parts that do not collide. Bodies of which only some pairs of geoms collide are
-  /// remembered, as by collide().
+  /// recorded, as in collide().
   MjcfKeptApart kept_apart(const std::vector<MjcfPart>& parts, const MjcfListedBodies& listed);
-  /// Sets tree.model.never_meet and always_meet, whose excludes are there already: as MuJoCo, a
-  /// link does not collide with what carries it, unless that is fixed to the world. `fixed_base`:
-  /// is the first link? Shapes of links are known.
+  /// Sets tree.model.never_meet, which must contain the excludes, and always_meet. As in MuJoCo, a
+  /// link does not collide with its parent body unless the parent is fixed to the world. Shapes of
+  /// links must be set.
+  /// fixed_base  true if the first link is fixed to the world
   void filter_links(MjcfTree& tree, bool fixed_base);
-  /// Warns, once each, of bodies that collide by more than the file says, of friction of pairs, and
-  /// of pairs whose geoms `is_read` does not know.
+  /// Warns once of bodies that collide more than the file specifies, of friction of pairs, and of
+  /// pairs whose geoms `is_read` does not accept.
   void tell(const std::function<bool(const std::string&)>& is_read);
 
  private:
@@ -91,7 +92,7 @@ class MjcfContacts {
   MjcfDocument& document_;
   const FileCache& cache_;
   std::vector<MjcfPair> pairs_;
-  std::set<std::array<std::string, 2>> listed_;  // each in order
+  std::set<std::array<std::string, 2>> listed_;  // names of each pair in ascending order
   bool filter_parents_ = true;
   MjcfNamedPairs mixed_;
 };

@@ -17,7 +17,7 @@ namespace clench {
 
 namespace {
 
-// an actuator keeps a row of numbers, one per joint of its tendon
+// an actuator stores one number per joint of its tendon
 constexpr size_t max_pulled_joints = 200'000;
 
 class Couplings {
@@ -90,8 +90,8 @@ class Couplings {
   std::map<std::string, Unused> loops_, targets_;
 };
 
-/// Does an element concern this robot? Elements that name joints of other robots only do not; those
-/// that name no joint are reported once.
+/// True if an element concerns this robot. Elements that name only joints of other robots do not;
+/// those that name no joint are reported once.
 bool Couplings::concerns(const XmlValues& values) const {
   bool others = false;
   for (const char* attribute : {"joint", "jointinparent", "joint1", "joint2"}) {
@@ -108,7 +108,7 @@ bool Couplings::concerns(const XmlValues& values) const {
   return tells_ && !others;
 }
 
-/// Does another robot of the file have a joint of this name?
+/// True if another robot of the file has a joint of this name.
 bool Couplings::is_elsewhere(const std::string& name) const {
   if (!is_one_of_several_) return false;
   const auto all = file_joints_.in_trees.find(name);
@@ -117,7 +117,7 @@ bool Couplings::is_elsewhere(const std::string& name) const {
   return own == own_joints_.end() || all->second > own->second;
 }
 
-/// Why the robot lacks a joint of this name; empty if the file has no such joint.
+/// Reason why the robot lacks a joint of this name; empty if the file has no such joint.
 std::string Couplings::why_not(const std::string& name) const {
   if (numbers_.contains(name + "_x")) return "is a ball, which became three turns";
   if (is_elsewhere(name)) return "is of another robot";
@@ -146,7 +146,7 @@ const MjcfTendon* Couplings::find_tendon(const std::string& name) const {
 }
 
 void Couplings::keep(MjcfTendon tendon) {
-  // the last of a name counts
+  // if a name is repeated, the last one is used
   if (!tendon.name.empty()) tendon_numbers_[tendon.name] = tendons_.size();
   tendons_.push_back(std::move(tendon));
 }
@@ -167,7 +167,7 @@ void Couplings::read_tendons() {
     MjcfTendon tendon = read_mjcf_tendon(document_, node->element);
     if (tendon.spatial) {
       unused_.element(node->element);
-      // its name is known all the same
+      // its name can be referenced nevertheless
       keep(std::move(tendon));
       continue;
     }
@@ -223,8 +223,8 @@ void Couplings::tie_joints(const XmlElement& element, const XmlValues& values) {
             element, cache_);
 }
 
-/// A tendon of two joints with constant length couples them: c1 q1 + c2 q2 is polycoef's first number
-/// more than in the initial configuration.
+/// A tendon of two joints with constant length couples them: c1 q1 + c2 q2 exceeds its value in the
+/// initial configuration by polycoef's first number.
 void Couplings::tie_tendon(const XmlElement& element, const XmlValues& values) {
   document_.unused().attributes(element,
                                 {"name", "class", "tendon1", "tendon2", "polycoef", "active"});

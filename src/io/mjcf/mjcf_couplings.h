@@ -12,20 +12,20 @@ namespace clench {
 /// Joints of a file, by name.
 struct MjcfFileJoints {
   std::map<std::string, bool> is_free;
-  bool composes = false;                ///< are there elements that would make joints?
-  std::map<std::string, int> in_trees;  ///< how often a tree of joints has the name
+  bool composes = false;                ///< true if there are elements that would generate joints
+  std::map<std::string, int> in_trees;  ///< number of joint trees that contain the name
 
-  /// Adds an element of the world and what is below it to `is_free` and `composes`.
+  /// Adds an element of the world and its descendants to `is_free` and `composes`.
   void add(const MjcfNode& node);
 };
 
-/// Counts the named joints below an element that are not <freejoint>.
+/// Counts the named joints below an element, except <freejoint>.
 void count_joint_names(const MjcfNode& node, std::map<std::string, int>& into);
 
-/// Makes joints that must move together follow one of them, takes the limits and forces of
+/// Lets joints that must move together follow one of them, applies the limits and forces of
 /// actuators, and marks joints that no actuator drives as passive if there are actuators. Warns of
-/// couplings that cannot be followed.
-/// trunk  the body that the robot begins with, one of several; null: the robot is the only one
+/// couplings that cannot be represented.
+/// trunk  root body of the robot, one of several; null: the robot is the only one
 /// tells  also warns of elements that concern no joint
 void read_mjcf_couplings(MjcfDocument& document, FileCache& cache, TreeModel& tree,
                          const MjcfFileJoints& joints, const MjcfNode* trunk, bool tells);

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 static constexpr int max_files = 100;        // of includes; far above any robot
 static constexpr int deepest_element = 200;  // of elements, over all includes
-// of one name in one class: each element of that class looks into all of them
+// per name and class: each element of that class searches all of them
 static constexpr size_t max_alike_defaults = 10;
 
 MjcfDocument::MjcfDocument(const fs::path& path, FileCache& cache)
@@ -70,7 +70,7 @@ void MjcfDocument::include(const XmlElement& element, std::vector<MjcfNode>& int
   const std::string name = XmlValues(element).text("file");
   fs::path found;
   try {
-    // beside the including file, else beside the outermost
+    // next to the including file, otherwise next to the outermost
     found = find_file(name, open_.back(), cache_.options());
   } catch (const Error& near) {
     try {
@@ -83,7 +83,7 @@ void MjcfDocument::include(const XmlElement& element, std::vector<MjcfNode>& int
   if (std::find(open_.begin(), open_.end(), canonical) != open_.end())
     element.fail("include: '{}' includes itself", excerpt(name));
   if (files_.size() >= max_files) element.fail("expected at most {} files", max_files);
-  // the outermost element only groups the others
+  // the root element only groups the others
   MjcfNode root = load(open(found).root(), depth + 1);
   for (auto& child : root.children) into.push_back(std::move(child));
   open_.pop_back();
@@ -112,7 +112,7 @@ void MjcfDocument::read_defaults(const MjcfNode& node, int parent, const std::st
   const std::string name = node.element.attribute("class").value_or("");
   int number = parent < 0 ? outermost : parent;
   if (parent < 0 && !name.empty() && name != "main") {
-    // older versions of MuJoCo used this name for the global class; current ones refuse it
+    // older versions of MuJoCo used this name for the global class; current ones reject it
     if (const auto [at, is_new] = class_numbers_.emplace(prefix + name, outermost);
         !is_new && at->second != outermost)
       node.element.fail("default: there is another class '{}'", excerpt(name));
@@ -166,7 +166,7 @@ std::vector<XmlElement> MjcfDocument::defaults(const XmlElement& element,
       if (found != classes_[at].elements.end())
         of_class.insert(of_class.end(), found->second.begin(), found->second.end());
     }
-    // the last of several elements in a class counts
+    // if a class has several such elements, the last one is used
     std::ranges::sort(of_class, std::greater{}, [](const auto& entry) { return entry.first; });
     for (const auto& entry : of_class) out.push_back(entry.second);
   }

@@ -1,5 +1,5 @@
-// An MJCF file with all that it includes and attaches: its elements, the defaults of their classes,
-// and the settings by which its numbers are read.
+// An MJCF file with all included and attached files: its elements, the defaults of their classes,
+// and the settings for reading its numbers.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -16,7 +16,7 @@
 
 namespace clench {
 
-/// An element with its children, those of included files and generated ones among them.
+/// An element with its children, including those of included files and generated ones.
 struct MjcfNode {
   XmlElement element;
   std::vector<MjcfNode> children;
@@ -24,17 +24,16 @@ struct MjcfNode {
   std::string name() const { return std::string(element.name()); }
 };
 
-/// The rotation that three Euler angles mean, in the file's unit and sequence of axes.
+/// The rotation given by three Euler angles, in the file's unit and sequence of axes.
 Eigen::Quaterniond euler_turn(const MjcfSettings& settings, const std::vector<double>& angles);
 
-/// Turns z to a unit vector along the shortest arc; to -z, half a turn about x, as MuJoCo does.
+/// Rotation of z to a unit vector along the shortest arc; for -z half a turn about x, as in MuJoCo.
 Eigen::Quaterniond turn_z_to(const Eigen::Vector3d& direction);
 
 class MjcfDocument {
  public:
   /// Reads the elements unexpanded; expand_mjcf replaces those that generate others.
-  /// throws  Error for malformed XML, circular includes, unknown classes, settings that cannot be
-  ///         followed
+  /// throws  Error for malformed XML, circular includes, unknown classes, unsupported settings
   MjcfDocument(const std::filesystem::path& path, FileCache& cache);
 
   const MjcfNode& root() const { return root_; }
@@ -43,8 +42,8 @@ class MjcfDocument {
   /// Children of all top-level sections of a name, "worldbody", in order.
   std::vector<const MjcfNode*> section(const std::string& name) const;
 
-  /// Attributes of an element with the defaults of its class, else of `child_class`. Defaults stand
-  /// under the element's own name, or `also`.
+  /// Attributes of an element with the defaults of its class, otherwise of `child_class`. Defaults
+  /// are in elements with its name, or with the name `also`.
   XmlValues values(const XmlElement& element, const std::string& child_class = "",
                    const char* also = nullptr) const;
   /// Elements of these names that give the defaults of an element, the nearest first.
@@ -52,12 +51,12 @@ class MjcfDocument {
                                    std::span<const std::string_view> names) const;
   void check_class(const XmlElement& element, const std::string& name) const;
 
-  /// Settings of the file that an element comes from.
+  /// Settings of the file that contains an element.
   const MjcfSettings& settings(const XmlElement& element) const {
     return *settings_.at(element.file());
   }
-  /// An orientation of the nearest element or class that gives axisangle, euler, xyaxes or zaxis,
-  /// else quat.
+  /// The orientation of the nearest element or class that gives axisangle, euler, xyaxes or zaxis,
+  /// otherwise quat.
   Eigen::Quaterniond orientation(const XmlValues& values) const;
   Pose pose(const XmlValues& values) const;  ///< pos and orientation
   /// The mesh file that an element's attribute `file` names.   throws  Error of find_file
@@ -80,13 +79,13 @@ class MjcfDocument {
     /// By name, each with its number in the file.
     std::map<std::string, std::vector<std::pair<int, XmlElement>>, std::less<>> elements;
   };
-  /// Its attribute `file`, below a folder of the settings.
+  /// The file named by its attribute `file`, relative to a folder of the settings.
   std::string asset_file(const XmlValues& asset, const std::string& folder) const;
-  /// The outermost element of a file with all that it includes.
+  /// The root element of a file with all included files.
   MjcfNode load_file(const std::filesystem::path& path);
   MjcfNode load(const XmlElement& element, int depth);
   void include(const XmlElement& element, std::vector<MjcfNode>& into, int depth);
-  /// Classes of a file, whose names get a prefix; "main" is its outermost one.
+  /// Reads the classes of a file and adds a prefix to their names; "main" is its global class.
   void add_classes(const MjcfNode& root, const std::string& prefix);
   void read_defaults(const MjcfNode& node, int parent, const std::string& prefix, int outermost);
   const XmlFile& open(const std::filesystem::path& path);
@@ -95,7 +94,7 @@ class MjcfDocument {
   std::string file_;
   FileCache& cache_;
   std::vector<std::unique_ptr<XmlFile>> files_;
-  std::vector<std::filesystem::path> open_;  // the file and those that include one another
+  std::vector<std::filesystem::path> open_;  // the file and the chain of files that include it
   std::vector<std::shared_ptr<MjcfSettings>> reading_;  // of the models being loaded
   std::map<const std::string*, std::shared_ptr<MjcfSettings>> settings_;  // by XmlElement::file
   XmlCopies copies_;

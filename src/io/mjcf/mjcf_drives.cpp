@@ -31,7 +31,7 @@ void to_unit_length(std::map<int, double>& row) {
   std::erase_if(row, [](const auto& entry) { return std::abs(entry.second) <= tiny_pull; });
 }
 
-/// Are two unit rows equal up to their sign?
+/// True if two unit rows are equal up to their sign.
 bool in_one_ratio(const std::map<int, double>& a, const std::map<int, double>& b) {
   const double sign = (a.begin()->second < 0) == (b.begin()->second < 0) ? 1 : -1;
   return std::ranges::equal(a, b, [&](const auto& x, const auto& y) {
@@ -148,11 +148,11 @@ void Drives::take_control_ranges() {
 
 // --- joints that share a tendon ---
 
-/// Makes the joints of one tendon move in proportion to their coefficients.
+/// Couples the joints of a tendon in proportion to their coefficients.
 void Drives::tie(const MjcfDrive& drive) {
   const MjcfTendon& tendon = *drive.tendon;
   const XmlElement& at = drive.actuator.values.element();
-  // joints coupled by other elements may cancel out
+  // the coefficients of joints coupled by other elements may cancel
   std::map<int, double> arms;
   for (const auto& [number, c] : tendon.joints)
     if (const TiedJoint tied = by_leader(tree_, number); tied.leader >= 0)
@@ -250,7 +250,7 @@ void Drives::tie_joints() {
 
 // --- motors ---
 
-/// Gains of actuators that control the position of a DOF and damp it; the sum over all of them.
+/// Gains of actuators that control the position of a DOF and damp it, summed over all of them.
 void Drives::take_gains(const MjcfDrive& drive) {
   const ActuatorSpec& servo = drive.actuator.spec;
   if (!servo.law_known) return;
@@ -303,7 +303,7 @@ void Drives::tell_disabled() const {
 }
 
 /// Completes the actuator's spec by its target, and adds it to those of the tree. An actuator of a
-/// joint that does not move drives nothing.
+/// fixed joint drives nothing.
 void Drives::attach(const MjcfDrive& drive) {
   ActuatorSpec out = spec(drive);
   const auto add = [&](int joint, double coefficient) {

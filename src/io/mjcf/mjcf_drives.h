@@ -1,4 +1,4 @@
-// Applies the actuators of an MJCF file to a robot: driven DOFs, gains, largest efforts, and joints
+// Applies the actuators of an MJCF file to a robot: driven DOFs, gains, maximum efforts, and joints
 // that are coupled by an actuated tendon.
 #pragma once
 #include <vector>
@@ -15,10 +15,10 @@ struct MjcfDrive {
   const MjcfTendon* tendon = nullptr;  ///< null: the joint is the target
 };
 
-/// Sets ranges and gains of the DOFs, ties joints that share a tendon, and adds tree.actuators;
-/// `driven` marks DOFs with an actuator, see settle_motors. Joints that share one tendon move in
-/// proportion to their coefficients where no other actuator pulls them in another ratio; where one
-/// does, they stay independent.
+/// Sets ranges and gains of the DOFs, couples joints that share a tendon, and adds tree.actuators;
+/// `driven` marks DOFs with an actuator, see settle_motors. Joints that share a tendon move in
+/// proportion to their coefficients, unless another actuator pulls them in another ratio: then they
+/// stay independent.
 void apply_mjcf_drives(const std::vector<MjcfDrive>& drives, MjcfDocument& document,
                        const FileCache& cache, TreeModel& tree);
 

@@ -11,7 +11,7 @@
 
 namespace clench {
 
-/// Sections whose elements refer to bodies, joints and geoms; tendons come first, since others
+/// Sections whose elements refer to bodies, joints and geoms; tendons come first because others
 /// refer to them.
 static constexpr const char* referring_sections[] = {"tendon", "equality", "contact", "actuator"};
 
@@ -62,9 +62,9 @@ class MjcfExpander {
   int depth_ = 0;
   int64_t searched_ = 0;
   std::map<std::string, std::filesystem::path> model_files_;  // by place of the asset
-  std::map<std::string, MjcfNode> models_;                    // of attached files, likewise
-  std::vector<const MjcfNode*> attaching_;                    // targets, outermost first
-  // names that the referring sections of a model refer to, and perhaps some that they did
+  std::map<std::string, MjcfNode> models_;  // of attached files, by place of the asset
+  std::vector<const MjcfNode*> attaching_;  // targets, outermost first
+  // names to which the referring sections of a model refer; may contain outdated ones
   std::map<const MjcfNode*, MjcfNames> referred_;
   std::set<std::pair<const MjcfNode*, std::string>> copied_assets_;  // of models, with prefixes
 };
@@ -149,8 +149,8 @@ static XmlCopies::Attributes pose_attributes(const Pose& X) {
           {"quat", fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z())}};
 }
 
-/// Places each replica in the frame of the one before. Names end in `sep` and the replica's number,
-/// padded to as many digits as their count has.
+/// Places each replica in the frame of the previous one. Names end in `sep` and the replica's
+/// number, padded to the number of digits of their count.
 void MjcfExpander::replicate(const MjcfNode& node, MjcfNode& root, std::vector<MjcfNode>& into) {
   check_stop();
   const XmlValues values(node.element);
@@ -168,7 +168,7 @@ void MjcfExpander::replicate(const MjcfNode& node, MjcfNode& root, std::vector<M
   const size_t digits = std::to_string(count).size();
   MjcfNames names;
   names.add(node.children);
-  // elements that refer to replicas wait until all replicas exist
+  // elements that refer to replicas are copied after all replicas exist
   MjcfNode referring{node.element, {}};
   const bool refers_any = names.overlaps(referred(root));
   for (const char* section : referring_sections)
@@ -227,7 +227,7 @@ namespace {
 
 struct Target {
   const MjcfNode* node = nullptr;
-  std::string child_class;  // that it inherits
+  std::string child_class;  // inherited by the copy
 };
 
 bool holds_targets(const MjcfNode& node) {
@@ -235,7 +235,7 @@ bool holds_targets(const MjcfNode& node) {
   return name == "body" || name == "frame" || name == "replicate";
 }
 
-/// searched  how many elements were compared
+/// searched  number of elements that were compared
 void find_target(const MjcfNode& at, const std::string& kind, const std::string& name,
                  const std::string& child_class, Target& found, size_t& searched) {
   for (const MjcfNode& child : at.children) {
@@ -318,7 +318,7 @@ void MjcfExpander::copy_assets(const MjcfNode& from, MjcfNode& root, const std::
       MjcfNode out{section.element, {}};
       for (const MjcfNode& asset : section.children) {
         if (asset.name() == "model") continue;
-        // a mesh without a name has that of its file
+        // a mesh without a name is named after its file
         const std::string file = asset.element.attribute("file").value_or("");
         const std::string stem = std::filesystem::path(file).stem().string();
         XmlCopies::Attributes more = {{"name", prefix + stem}, {"class", prefix + "main"}};
@@ -342,8 +342,8 @@ void MjcfExpander::copy_assets(const MjcfNode& from, MjcfNode& root, const std::
   }
 }
 
-/// Copies a body, a frame or all contents of a model, whose names get a prefix. Frames around a
-/// body are left out, those around a frame too; classes are inherited.
+/// Copies a body, a frame or all contents of a model and adds a prefix to their names. Frames
+/// around a body or frame are omitted; classes are inherited.
 void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<MjcfNode>& into) {
   check_stop();
   constexpr int max_depth = 20;

@@ -66,7 +66,7 @@ void MjcfGeoms::set_look(const XmlValues& values, const std::string& fallback_ma
   if (use == texture_uses_.end() || use->second.texture.empty() || !geom.drawn) return;
   Eigen::Vector3d half = geom.piece.geometry->mesh.bounds().size() / 2;
   if (values.text("type", "sphere") == "plane") {
-    const auto size = values.numbers("size", 0, 3);  // 0: without end
+    const auto size = values.numbers("size", 0, 3);  // 0: infinite
     for (size_t i = 0; i < 2; ++i) half[static_cast<long>(i)] = i < size.size() ? size[i] : 0;
     half = half.unaryExpr([](double x) { return x > 0 ? x : 1; });
   }
@@ -139,7 +139,7 @@ void MjcfGeoms::set_fitted(const std::string& type, const XmlValues& values, con
                             in_quotes(values.text("mesh")));
 }
 
-// stands for a plane, which is infinite
+// size that replaces an infinite plane
 static constexpr double plane_half_size = 5;    // [m]
 static constexpr double plane_thickness = 0.1;  // [m]
 

@@ -1,4 +1,4 @@
-// Geoms of MJCF and the meshes and materials that they name, as pieces of links.
+// Reads MJCF geoms, and the meshes and materials that they name, as pieces of links.
 #pragma once
 #include <map>
 #include <optional>
@@ -14,15 +14,16 @@ namespace clench {
 
 struct MjcfGeom {
   GeometryPiece piece;
-  bool drawn = false;               ///< of the groups 0 to 2, which viewers show
-  unsigned type = 1, affinity = 1;  ///< bits: two geoms meet when type and affinity share one
+  bool drawn = false;  ///< in groups 0 to 2, which viewers show
+  /// bits: two geoms collide if the type of one and the affinity of the other share a bit
+  unsigned type = 1, affinity = 1;
   /// Mass, center of mass and inertia in the frame of the piece. Geoms of groups that the compiler
-  /// leaves out have none.
+  /// excludes have none.
   double mass = 0;       ///< [kg]
-  bool weighed = true;   ///< is it of the compiler's groups?
-  MassProperties solid;  ///< for unit density, of a shell per area
+  bool weighed = true;   ///< true if it is in the compiler's groups
+  MassProperties solid;  ///< for unit density; for a shell, per area
   std::string name;      ///< empty: it has none
-  bool paired = false;   ///< named by a <pair>, which defines what it collides with
+  bool paired = false;   ///< named by a <pair>, which determines its contacts
 
   OwnFriction friction;         ///< frictionless if condim is 1
   bool friction_given = false;  ///< by the geom or its class
@@ -32,7 +33,7 @@ struct MjcfGeom {
 
 class MjcfGeoms {
  public:
-  /// scene  are planes read?
+  /// scene  true if planes are read
   MjcfGeoms(MjcfDocument& document, FileCache& cache, bool scene);
 
   /// A geom in the frame of its body; empty, with a warning, for a type that is not used.

@@ -11,8 +11,9 @@ namespace clench {
 
 namespace {
 
-constexpr int max_key_numbers = 100'000;            // of one row
-constexpr size_t max_keyframe_numbers = 4'000'000;  // of all keyframes, poses of bodies included
+constexpr int max_key_numbers = 100'000;  // of one row
+// limit over all keyframes, including poses of bodies
+constexpr size_t max_keyframe_numbers = 4'000'000;
 // deviation of followers that counts as settled in a simulation [rad or m]
 constexpr double settled = 0.01;
 
@@ -22,8 +23,8 @@ Eigen::Quaterniond turn_at(const XmlValues& values, const char* attribute, const
   return q.normalized();
 }
 
-/// Angles about x, y and z, one after the other: R = Rx(a) Ry(b) Rz(c). Where b is a right angle, a
-/// and c turn about one axis, and a is 0.
+/// Consecutive rotations about x, y and z: R = Rx(a) Ry(b) Rz(c). If b is a right angle, a and c
+/// are about the same axis, and a is set to 0.
 Eigen::Vector3d three_turns(const Eigen::Quaterniond& q) {
   constexpr double aligned = 1e-12;  // cosine of b
   const Eigen::Matrix3d R = q.toRotationMatrix();
@@ -117,7 +118,7 @@ int qpos_size(const std::vector<const SceneBody*>& moving) {
   return count;
 }
 
-/// Count of the numbers that a keyframe keeps, with those that the file leaves out.
+/// Count of the numbers that a keyframe stores, including those that the file omits.
 size_t kept_numbers(const std::vector<const SceneBody*>& moving) {
   size_t count = 0;
   for (const SceneBody* body : moving) {

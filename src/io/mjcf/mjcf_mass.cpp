@@ -1,4 +1,4 @@
-// Masses of the bodies of an MJCF tree.
+// Computes masses of the bodies of an MJCF tree.
 #include <algorithm>
 #include <cmath>
 
@@ -41,8 +41,8 @@ void MjcfTreeReader::read_inertial(const XmlElement& element, int link, const Po
   tree_.pieces[link].has_inertial = true;
 }
 
-/// Sets mass, center of mass and inertia of a body from its <inertial>, else from its geoms, within
-/// the compiler's bounds.
+/// Sets mass, center of mass and inertia of a body from its <inertial>, otherwise from its geoms,
+/// within the compiler's bounds.
 void MjcfTreeReader::weigh(const XmlElement& element, int link) {
   using FromGeoms = MjcfSettings::FromGeoms;
   const FromGeoms rule = document_.settings(element).inertia_from_geoms;
@@ -50,14 +50,14 @@ void MjcfTreeReader::weigh(const XmlElement& element, int link) {
   const auto& geoms = tree_.geoms[link];
   const bool any = std::ranges::any_of(geoms, &MjcfGeom::weighed);
   if ((rule == FromGeoms::always && (any || !given)) || (!given && rule == FromGeoms::missing)) {
-    if (!weigh_geoms(link) && !given) return;  // its mass follows from its shape later
+    if (!weigh_geoms(link) && !given) return;  // its mass is computed from its shape later
   } else if (!given) {
     set_massless(link);
   }
   bound_inertia(element, link);
 }
 
-/// A mass of 0 is replaced by the smallest mass of a body.
+/// A mass of 0 is replaced by the smallest valid mass of a body.
 void MjcfTreeReader::set_massless(int link) {
   constexpr double point = 1e-6;  // inertia per mass [m^2]
   const auto& geoms = tree_.geoms[link];
@@ -141,7 +141,7 @@ void MjcfTreeReader::check_moving_masses() {
   auto& links = tree_.model.links;
   const int count = static_cast<int>(links.size());
   const auto moves = [&](int l) { return !links[l].joints.empty() || free_.contains(l); };
-  std::vector<int> carrier(count);  // per link: the moving link that it is fixed to
+  std::vector<int> carrier(count);  // per link: the moving link to which it is fixed
   std::vector<bool> heavy(count);
   for (int l = 0; l < count; ++l) {
     carrier[l] = moves(l) || links[l].parent < 0 ? l : carrier[links[l].parent];

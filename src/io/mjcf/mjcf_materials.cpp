@@ -7,7 +7,7 @@
 
 namespace clench {
 
-// a world keeps the friction of every pair of materials
+// a world stores the friction of every pair of materials
 static constexpr size_t max_frictions = 500;
 
 std::string MjcfMaterials::of(const std::vector<MjcfGeom>& geoms, const std::string& body) {

@@ -13,12 +13,12 @@ class MjcfMaterials {
   /// file  for messages
   explicit MjcfMaterials(std::string file) : file_(std::move(file)) {}
 
-  /// Material of a body: of its geoms that collide, the one with the highest priority, then with
-  /// the largest friction, decides. Friction 1 if no geom collides.
+  /// Material of a body: the one of its colliding geom with the highest priority, among these with
+  /// the largest friction. Friction 1 if no geom collides.
   std::string of(const std::vector<MjcfGeom>& geoms, const std::string& body);
-  /// All frictions that of() has used.
+  /// All frictions that of() returned.
   std::vector<OwnFriction> list() const { return {frictions_.begin(), frictions_.end()}; }
-  /// Warns, once, of bodies whose geoms differ.
+  /// Warns once of bodies whose geoms differ.
   void tell(const FileCache& cache) const;
 
  private:
@@ -27,7 +27,7 @@ class MjcfMaterials {
   std::vector<std::string> mixed_;  // bodies whose geoms have different coefficients
 };
 
-/// Does the file give the friction of any geom that collides?
+/// True if the file gives the friction of any colliding geom.
 bool is_friction_given(const std::vector<MjcfGeom>& geoms);
 
 }  // namespace clench

@@ -22,14 +22,14 @@ void each_triangle(const Mesh& mesh, Visit visit) {
     visit(Corners{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
 }
 
-/// Six times the volume of the pyramid between a triangle and a point, > 0 where the triangle faces
-/// away from it.
+/// Six times the volume of the pyramid between a triangle and a point, > 0 if the triangle faces
+/// away from the point.
 double signed_volume6(const Corners& t, const Eigen::Vector3d& apex) {
   return (t.a - apex).dot((t.b - apex).cross(t.c - apex));
 }
 
-/// Second moments of a weight spread evenly over a simplex of the corners and, for a solid, the
-/// origin: integral of x x^T = weight / divisor * this, divisor 20 for a solid and 12 for a surface.
+/// Second moments of a uniform mass on the simplex of the corners and, for a solid, the origin:
+/// integral of x x^T = mass / divisor * this, divisor 20 for a solid and 12 for a surface.
 Eigen::Matrix3d corner_moments(const Corners& t) {
   const Eigen::Vector3d sum = t.a + t.b + t.c;
   return t.a * t.a.transpose() + t.b * t.b.transpose() + t.c * t.c.transpose() +
@@ -44,8 +44,8 @@ Corners moved(const Corners& t, const Eigen::Vector3d& origin) {
   return {t.a - origin, t.b - origin, t.c - origin};
 }
 
-/// Counts all pyramids as positive: first about the centroid of the surface, then about the resulting
-/// center of mass.
+/// Counts all pyramids as positive: first about the centroid of the surface, then about the
+/// resulting center of mass.
 MassProperties legacy_mass(const Mesh& mesh) {
   MassProperties out;
   const Eigen::Vector3d apex = surface_centroid(mesh);

@@ -6,13 +6,13 @@
 namespace clench {
 
 /// Values of a mesh's attribute `inertia`. `legacy`, MuJoCo's default: the pyramids between the
-/// triangles and the centroid of the surface all count positive, so that parts of a concave mesh
+/// triangles and the centroid of the surface all count as positive, so that parts of a concave mesh
 /// count several times. `exact`: the solid. `convex`: the solid of the convex hull. `shell`: the
 /// surface.
 enum class MeshInertia { legacy, exact, convex, shell };
 
-/// Properties for unit density; of a shell, `volume` is the area [m^2]. Where the legacy rule gives
-/// the solid's volume, the properties are the solid's.
+/// Properties for unit density; for a shell, `volume` is the area [m^2]. If the legacy rule gives
+/// the solid's volume, the properties are those of the solid.
 /// returns  volume 0 for a mesh without volume (or area)
 MassProperties mesh_mass(const Mesh& mesh, MeshInertia rule);
 

@@ -11,7 +11,7 @@
 
 namespace clench {
 
-static constexpr int max_mesh_numbers = 3'000'000;  // of vertices or faces in the model itself
+static constexpr int max_mesh_numbers = 3'000'000;  // of vertices or faces in the model
 
 void MjcfMeshes::add(const XmlElement& element) {
   const XmlValues values = document_.values(element);
@@ -39,7 +39,7 @@ static Mesh with_hull(Mesh mesh, const XmlValues& values, const char* attribute)
   return mesh;
 }
 
-/// A mesh given in the model itself; points without faces mean their convex hull.
+/// A mesh given in the model; points without faces represent their convex hull.
 Mesh MjcfMeshes::own_points(const XmlValues& values) const {
   const auto numbers = values.numbers("vertex", 12, max_mesh_numbers);
   if (numbers.size() % 3 != 0)
@@ -62,7 +62,7 @@ Mesh MjcfMeshes::own_points(const XmlValues& values) const {
   return mesh;
 }
 
-// a built-in mesh takes some 60 bytes of a file, and a triangle some 200 of memory
+// a built-in mesh takes about 60 bytes of a file, and a triangle about 200 of memory
 static constexpr size_t max_builtin_triangles = 500'000;
 
 std::shared_ptr<const Geometry> MjcfMeshes::shape(const Asset& asset) {

@@ -1,4 +1,4 @@
-// Mesh assets of MJCF: files, points and faces in the model itself, and built-in shapes; their mass
+// Mesh assets of MJCF: files, points and faces in the model, and built-in shapes; their mass
 // properties, and primitives fitted to them.
 #pragma once
 #include <map>
@@ -14,13 +14,13 @@ namespace clench {
 
 struct MjcfMesh {
   std::shared_ptr<const Geometry> geometry;
-  MassProperties mass;   ///< for unit density, by the asset's rule; of a shell per area
-  std::string material;  ///< of geoms that name none; empty: none
+  MassProperties mass;   ///< for unit density, by the asset's rule; for a shell, per area
+  std::string material;  ///< for geoms that name none; empty: none
 };
 
-/// A primitive in place of a mesh.
+/// A primitive that replaces a mesh.
 struct FittedPrimitive {
-  std::vector<double> size;  ///< as a geom's `size`: radii and half lengths [m]
+  std::vector<double> size;  ///< like a geom's `size`: radii and half lengths [m]
   Pose X_MF;                 ///< its frame in the mesh's frame
 };
 
@@ -29,20 +29,20 @@ class MjcfMeshes {
   MjcfMeshes(MjcfDocument& document, FileCache& cache, TreeGeometry& geometry)
       : document_(document), cache_(cache), geometry_(geometry) {}
 
-  /// An element <mesh> of the assets.
+  /// Adds a <mesh> element of the assets.
   void add(const XmlElement& element);
-  /// The mesh that a geom names, read when first used.
-  /// returns  null, with a warning, when it cannot be read and the geom does not collide
+  /// The mesh named by a geom, read when first used.
+  /// returns  null, with a warning, if it cannot be read and the geom does not collide
   const MjcfMesh* find(const XmlValues& geom, bool collides);
-  /// A primitive "box", "sphere", "capsule", "cylinder" or "ellipsoid" of the same inertia as the
-  /// mesh, or around it where the compiler's `fitaabb` says so.
+  /// A primitive "box", "sphere", "capsule", "cylinder" or "ellipsoid" with the same inertia as the
+  /// mesh, or around it if the compiler's `fitaabb` is set.
   FittedPrimitive fit(const MjcfMesh& mesh, const std::string& type, const XmlValues& geom) const;
 
  private:
   struct Asset {
     XmlValues values;
     std::optional<MjcfMesh> mesh = {};  // read when first used
-    bool is_missing = false;            // has this been reported?
+    bool is_missing = false;            // true once it was reported
   };
   const MjcfMesh& read(Asset& asset);
   std::shared_ptr<const Geometry> shape(const Asset& asset);

@@ -35,7 +35,7 @@ MjcfModel::MjcfModel(const std::filesystem::path& path, FileCache& cache, const 
   for (const TopBody* tree : joint_trees()) count_joint_names(*tree->node, file_joints_.in_trees);
 }
 
-/// Does an <option> switch actuators off or on?
+/// True if an <option> disables or enables actuators.
 static bool switches_actuators(const MjcfNode& option) {
   const auto has = [](const XmlElement& element, const char* name) {
     return element.attribute(name).has_value();
@@ -56,7 +56,7 @@ static void leave_out_rest(const MjcfNode& option, UnusedXml& unused) {
       unused.element(child.element);
 }
 
-/// Reports a section that is not read. Keyframes are states of a world, which a robot alone lacks.
+/// Reports a section that is not read. Keyframes are states of a world, not of a robot alone.
 void MjcfModel::leave_out(const MjcfNode& section) {
   if (section.name() == "option" && switches_actuators(section))
     return leave_out_rest(section, document_.unused());
@@ -149,7 +149,7 @@ void MjcfModel::read_excludes(MjcfTree& tree) {
     const XmlValues values(node->element);
     const auto a = tree.links.find(values.text("body1")), b = tree.links.find(values.text("body2"));
     if (a == tree.links.end() || b == tree.links.end()) {
-      // a scene checks them all, and a robot alone has no world around it
+      // a scene checks all of them, and a robot alone has no surroundings
       if (alone && values.text("body1") != "world" && values.text("body2") != "world")
         cache_.diagnostics().warn(node->element.place().of("exclude"),
                                   "'{}' and '{}' are not both bodies of the robot; not used",
@@ -162,7 +162,7 @@ void MjcfModel::read_excludes(MjcfTree& tree) {
 
 // --- robots ---
 
-/// Joints whose reference lies outside their limits, although a DOF must start within them.
+/// Reports joints whose reference is outside their limits, because a DOF must start within them.
 void MjcfModel::warn_of_starts(const TreeModel& tree) const {
   constexpr double rounding = 1e-9;
   for (const TreeJoint& joint : tree.joints) {
@@ -177,7 +177,7 @@ void MjcfModel::warn_of_starts(const TreeModel& tree) const {
   }
 }
 
-/// Links whose geoms give no friction are plastic, as those of other robots.
+/// Links whose geoms give no friction are plastic, as in other formats.
 void MjcfModel::set_materials(MjcfTree& tree, MjcfMaterials& materials) const {
   bool all_given = true;
   for (size_t i = 0; i < tree.geoms.size(); ++i) {

@@ -1,4 +1,4 @@
-// An MJCF model in memory, and the robots that its trees of joints are.
+// An MJCF model in memory, and the robots built from its joint trees.
 #pragma once
 #include <map>
 #include <optional>
@@ -12,39 +12,41 @@
 
 namespace clench {
 
-/// A tree as a robot, with what others need to know of it.
+/// A tree as a robot, with data for the reader of the scene.
 struct MjcfRobot {
   RobotSpec robot;
-  MjcfTree tree;  ///< its model is what remains: joints after couplings, no links
-  std::map<std::string, int> parts;  ///< links of the robot by the names of bodies; -1: the base
+  MjcfTree tree;  ///< its model holds only the remaining joints after couplings, no links
+  std::map<std::string, int> parts;  ///< links of the robot by names of bodies; -1: the base
   MjcfMaterials materials;           ///< of the links for which the file gives friction
 };
 
 class MjcfModel {
  public:
-  /// whole  what is read: "robot" or "world"
+  /// whole  the kind of result, for messages: "robot" or "world"
   MjcfModel(const std::filesystem::path& path, FileCache& cache, const char* whole);
 
   const Worldbody& worldbody() const { return worldbody_; }
   MjcfDocument& document() { return document_; }
   MjcfGeoms& geoms() { return geoms_; }
   MjcfContacts& contacts() { return contacts_; }
-  const std::string& name() const { return name_; }  ///< its own, else the file's stem
+  /// name in the file, otherwise the file's stem
+  const std::string& name() const { return name_; }
   const MjcfNames& names() const { return names_; }  ///< of all elements
-  /// Bodies directly in the world that have joints, or carry some that do.
+  /// Bodies directly in the world that have joints, or descendants with joints.
   std::vector<const TopBody*> joint_trees() const;
-  /// A tree alone: as a base of its own where it has no joint itself, else below a frame.
+  /// A tree as a separate robot: its root body is the base if it has no joint; otherwise the base
+  /// is an added frame.
   MjcfTree read_tree(const TopBody& body);
   /// Scales masses to the compiler's `settotalmass`.
   void scale_masses(MjcfTree& tree);
   /// The tree that begins with a body, as one of the robots of a scene.
   MjcfRobot scene_robot(const TopBody& body, bool first);
-  /// trunk       the body that the robot begins with, one of several; null: it is the only robot
+  /// trunk       root body of the robot, one of several; null: it is the only robot
   /// tells       also reports elements that concern no joint
-  /// fixed_base  is its first body fixed to the world?
+  /// fixed_base  true if its first body is fixed to the world
   MjcfRobot make(MjcfTree tree, const std::string& robot_name, const TopBody* trunk, bool tells,
                  bool fixed_base);
-  /// Tells what is left to tell of the whole file.
+  /// Reports the remaining diagnostics of the complete file.
   void tell();
 
  private:

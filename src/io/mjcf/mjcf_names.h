@@ -1,4 +1,4 @@
-// Names that elements of MJCF have and refer to, by the kind of what they name.
+// Names of MJCF elements and references to them, by kind of element.
 #pragma once
 #include <map>
 #include <set>
@@ -9,8 +9,8 @@
 
 namespace clench {
 
-/// Kind of what an attribute of tendons, actuators, equalities and contacts names, "joint" for
-/// "joint1"; empty: it names nothing.
+/// Kind of element to which an attribute of tendons, actuators, equalities and contacts refers,
+/// "joint" for "joint1"; empty: it is not a reference.
 std::string_view referred_kind(std::string_view attribute);
 
 class MjcfNames {
@@ -21,15 +21,15 @@ class MjcfNames {
   bool empty() const { return names_.empty(); }
   bool has(std::string_view kind, const std::string& name) const;
 
-  /// How many of the names that an element and those below it refer to are these, and how many
-  /// are not.
+  /// Number of references of an element and its descendants that are among these names, and of
+  /// those that are not.
   struct References {
     int inside = 0, outside = 0;
   };
   References references(const MjcfNode& node) const;
-  /// Adds the names that an element and those below it refer to.
+  /// Adds the names to which an element and its descendants refer.
   void add_referred(const MjcfNode& node);
-  bool overlaps(const MjcfNames& other) const;  ///< is a name in both?
+  bool overlaps(const MjcfNames& other) const;  ///< true if a name is in both
 
  private:
   std::map<std::string, std::set<std::string>, std::less<>> names_;  // by kind

@@ -7,7 +7,7 @@
 namespace clench {
 
 /// Reads the switches of the simulation, and warns of those that would change its results here.
-/// returns  is gravity on?
+/// returns  true if gravity is on
 static bool read_flags(const XmlElement& element, const FileCache& cache, WorldSpec& world) {
   // off by default
   const std::set<std::string> enabled = {"override", "energy",    "fwdinv", "invdiscrete",

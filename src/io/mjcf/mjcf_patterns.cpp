@@ -8,7 +8,7 @@ namespace clench {
 
 namespace {
 
-// share of the first color along a gradient, from 0 at -1 to 1 at 1
+// weight of the first color along a gradient, from 0 at -1 to 1 at 1
 double sigmoid(double x) {
   return std::clamp(0.5 * (1 + std::numbers::sqrt2 * x / std::sqrt(1 + x * x)), 0.0, 1.0);
 }

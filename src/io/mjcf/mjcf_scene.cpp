@@ -1,4 +1,4 @@
-// A scene of MJCF as a world.
+// Reads an MJCF scene as a world.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,15 +21,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// each pair takes some 100 bytes of memory in the world
+// each pair takes about 100 bytes of memory in the world
 constexpr size_t max_excluded = 500'000;
 constexpr size_t max_robots = 1000;
 
-/// A body or a part of a robot, as far as what meets what goes.
+/// A body or a part of a robot, with its data for collision filters.
 struct ScenePart {
   PartRef ref;
   std::string name;
-  std::vector<MjcfGeom> geoms;  // those that collide
+  std::vector<MjcfGeom> geoms;  // only colliding ones
   bool fixed = false;           // to the world
 };
 
@@ -69,7 +69,7 @@ class SceneReader {
   FileCache& cache_;
   MjcfModel model_;
   WorldSpec world_;
-  TreeModel things_;  // bodies of the world without a robot, one per link
+  TreeModel things_;  // bodies of the world outside of robots, one per link
   std::vector<LinkPieces> thing_pieces_;
   std::vector<ScenePart> parts_;
   std::map<std::array<int, 3>, size_t> part_numbers_;  // by kind, index and link
@@ -95,7 +95,7 @@ void SceneReader::add_part(PartRef ref, const std::string& name, const std::vect
   parts_.push_back(std::move(part));
 }
 
-/// An object or obstacle, whose shape is made when all are known.   returns  its number in the
+/// Adds an object or obstacle, whose shape is set when all are known.   returns  its index in the
 /// world
 int SceneReader::add_thing(const std::string& name, Role role, const Pose& X_WB, LinkPieces pieces,
                            const std::vector<MjcfGeom>& geoms, const BodySpec* weighed) {
@@ -146,7 +146,7 @@ void SceneReader::add_geom(const WorldGeom& from) {
   of_world_.push_back({WorldEntry::Kind::body, number, -1});
 }
 
-/// A free body, and what is fixed to it, as one.
+/// Adds a free body and all bodies fixed to it as one body.
 void SceneReader::add_object(const TopBody& body, SceneBody& scene) {
   MjcfTree tree = model_.read_tree(body);
   tree.faults.tell(cache_);
@@ -174,7 +174,7 @@ void SceneReader::add_object(const TopBody& body, SceneBody& scene) {
     by_name_[name] = {{WorldEntry::Kind::body, number, -1}};
 }
 
-/// Adds a fixed body and those on it as obstacles, one per body with geoms.
+/// Adds a fixed body and those attached to it as obstacles, one per body with geoms.
 void SceneReader::add_obstacles(const TopBody& body, SceneBody& scene) {
   MjcfTree tree = model_.read_tree(body);
   const auto X = tree_poses(tree.model);
@@ -239,7 +239,7 @@ void SceneReader::add_body(const TopBody& body) {
   scene_.push_back(std::move(scene));
 }
 
-/// Sets shapes and appearance of all bodies that belong to no robot.
+/// Sets shapes and appearance of all bodies outside of robots.
 void SceneReader::dress_things() {
   if (things_.links.empty()) return;
   dress_links(things_, thing_pieces_, model_.geoms().geometry(), model_.document().file(), cache_,
@@ -253,7 +253,7 @@ void SceneReader::dress_things() {
   }
 }
 
-/// The frictions of the scene that parts of the robot have.
+/// Frictions of the scene that are used by parts of the robot.
 std::vector<OwnFriction> SceneReader::used_frictions(const RobotSpec& robot) const {
   std::set<std::string> materials = {robot.base.material};
   for (const LinkSpec& link : robot.links) materials.insert(link.body.material);
@@ -272,7 +272,7 @@ void SceneReader::keep_apart(PartRef a, PartRef b) {
   world_.never_meet.push_back({a, b});
 }
 
-/// The parts that a body of an <exclude> is; empty, with a warning, for one that is not read.
+/// The parts created from a body named in an <exclude>; empty, with a warning, for an unknown body.
 const std::vector<PartRef>& SceneReader::parts_of(const XmlValues& exclude, const char* body) {
   static const std::vector<PartRef> none;
   const std::string name = exclude.text(body);
@@ -303,8 +303,8 @@ void SceneReader::exclude() {
   }
 }
 
-/// Gives the parts their bits, unless all parts collide with each other anyway. Pairs of bodies
-/// with geoms that a <pair> lists collide whatever their bits are.
+/// Sets the collision bits of the parts, unless all parts collide with each other anyway. Pairs of
+/// bodies with geoms listed by a <pair> collide regardless of their bits.
 void SceneReader::set_bits() {
   std::vector<MjcfPart> parts;
   for (const ScenePart& part : parts_)
@@ -326,7 +326,7 @@ void SceneReader::set_bits() {
                               apart.by_bits == 1 ? "s" : "");
 }
 
-/// Accepts a scene without bodies if its <worldbody> holds none either.
+/// Accepts a scene without bodies if its <worldbody> is empty, too.
 void SceneReader::check_empty() {
   const Worldbody& worldbody = model_.worldbody();
   const auto& sections = model_.document().root().children;

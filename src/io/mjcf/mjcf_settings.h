@@ -8,22 +8,22 @@
 
 namespace clench {
 
-/// The defaults are MuJoCo's.
+/// The defaults are those of MuJoCo.
 struct MjcfSettings {
   enum class FromGeoms { never, always, missing };
 
-  std::filesystem::path path;  ///< of the outermost file; names of files are relative to its folder
+  std::filesystem::path path;  ///< of the outermost file; file names are relative to its folder
   double angle_unit = 0;       ///< [rad]
   std::string euler = "xyz";   ///< capital letters: axes fixed in the parent frame
   bool autolimits = true, strip_path = false;
   std::string mesh_dir, texture_dir;
-  FromGeoms inertia_from_geoms = FromGeoms::missing;  ///< masses of bodies
+  FromGeoms inertia_from_geoms = FromGeoms::missing;  ///< for masses of bodies
   std::array<int, 2> inertia_groups = {0, 5};  ///< geoms of these groups have mass, bounds included
   double min_mass = 0;                         ///< of a body [kg]
   double min_inertia = 0;                      ///< principal moments of a body [kg m^2]
-  double total_mass = 0;         ///< of all bodies, scaled to it; <= 0: as they are [kg]
-  bool balance_inertia = false;  ///< average the moments of an inertia that no body can have
-  bool fit_bounds = false;       ///< primitives are fitted to bounding boxes, not to inertias
+  double total_mass = 0;         ///< all masses are scaled to this sum; <= 0: unscaled [kg]
+  bool balance_inertia = false;  ///< replaces the moments of an invalid inertia by their mean
+  bool fit_bounds = false;       ///< fits primitives to bounding boxes instead of inertias
 
   MjcfSettings();
   /// Applies one <compiler> element.

@@ -11,7 +11,7 @@ Eigen::MatrixXd reference_mass_matrix(const TreeModel& tree, bool floating) {
   for (Eigen::Index j = 0; j < joints; ++j) M(j, j) = tree.joints[j].armature;
   for (Eigen::Index k = joints; k < size; ++k) M(k, k) = tree.links[0].body.free_armature;
   std::vector<Pose> X;  // in the frame of the first link
-  // by link: the joints that move it; each one's axis and a point of it
+  // per link: the joints that move it, with axis and a point on the axis
   std::vector<std::vector<int>> moved_by;
   std::vector<Eigen::Vector3d> axes(joints), points(joints);
   for (const TreeLink& link : tree.links) {
@@ -22,7 +22,8 @@ Eigen::MatrixXd reference_mass_matrix(const TreeModel& tree, bool floating) {
       points[j] = X.back() * tree.joints[j].anchor;
       moved_by.back().push_back(j);
     }
-    // how the coordinates move the center of mass, and turn the link
+    // derivatives of the position of the center of mass and of the rotation of the link by the
+    // coordinates
     const double mass = link.body.mass;
     const Eigen::Vector3d com = X.back() * com_of(link.body);
     const Eigen::Matrix3d R = X.back().matrix(),
@@ -46,7 +47,7 @@ Eigen::MatrixXd reference_mass_matrix(const TreeModel& tree, bool floating) {
   return M;
 }
 
-/// Are both turns of one ball?
+/// True if both are hinges of the same ball.
 static bool share_ball(const TreeJoint& a, const TreeJoint& b) {
   const auto stem = [](const TreeJoint& joint) {
     return joint.name.substr(0, joint.name.size() - std::min<size_t>(2, joint.name.size()));

@@ -1,4 +1,4 @@
-// Springs and dampers of joints that MJCF describes by a time constant and a damping ratio.
+// Springs and dampers of joints given in MJCF by a time constant and a damping ratio.
 #pragma once
 #include <Eigen/Core>
 
@@ -6,15 +6,16 @@
 
 namespace clench {
 
-/// Of each joint with `spring_damper`: stiffness I / (t z)^2 and damping 2 I / t, for the time
+/// Sets for each joint with `spring_damper` stiffness I / (t z)^2 and damping 2 I / t, for the time
 /// constant t, the damping ratio z and the inertia I = 1 / (M^-1)_jj, where M is the mass matrix at
-/// the reference. The turns of a ball share the mean of 1 / I. The masses of the links are known.
-/// floating  does the first link move freely?
+/// the reference. The three hinges of a ball joint use the mean of 1 / I. The masses of the links
+/// must be set.
+/// floating  true if the first link moves freely
 /// source    MuJoCo 3: XML reference, "joint: springdamper"
 void set_springs_and_dampers(TreeModel& tree, bool floating);
 
-/// Mass matrix where no joint moves anything, armature included [kg m^2, kg m or kg]: one row per
-/// joint, then six of a first link that moves freely.
+/// Mass matrix with all joints at their references, including armature [kg m^2, kg m or kg]: one
+/// row per joint, then six for a first link that moves freely.
 Eigen::MatrixXd reference_mass_matrix(const TreeModel& tree, bool floating);
 
 }  // namespace clench

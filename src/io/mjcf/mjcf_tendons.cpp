@@ -48,7 +48,7 @@ std::optional<std::array<double, 2>> length_range(const XmlValues& values, MjcfD
   return range;
 }
 
-/// Limits of a joint that follow from those of the length, coefficient * q + offset.
+/// Limits of a joint given by those of the length, coefficient * q + offset.
 void narrow(const MjcfTendon& tendon, TreeJoint& joint, double coefficient, double offset,
             const std::array<double, 2>& length, const FileCache& cache) {
   const double a = (length[0] - offset) / coefficient, b = (length[1] - offset) / coefficient;
@@ -92,7 +92,7 @@ void add_tendon_dynamics(const MjcfTendon& tendon, MjcfDocument& document, const
                              "of its joints are not of the robot");
     return;
   }
-  // length = sum of coefficients and DOFs + offset
+  // length = sum of coefficients times DOFs + offset
   std::map<int, double> arms;
   double offset = 0, rest = 0;
   for (const auto& [number, coefficient] : tendon.joints) {
@@ -112,7 +112,7 @@ void add_tendon_dynamics(const MjcfTendon& tendon, MjcfDocument& document, const
     if (out.stiffness == 0 && out.damping == 0 && out.friction == 0) return;
   }
   if (range) out.range = std::array{(*range)[0] - offset, (*range)[1] - offset};
-  // -1: the length where the springs of its joints are slack
+  // -1: the length at which the springs of its joints are slack
   std::array<double, 2> slack = {rest, rest};
   if (values.has("springlength")) {
     const auto given = values.numbers("springlength", 1, 2);

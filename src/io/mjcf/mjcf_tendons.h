@@ -8,11 +8,12 @@ namespace clench {
 struct MjcfTendon {
   XmlValues values;
   std::string name;
-  std::vector<std::pair<int, double>> joints = {};  ///< of the tree, and coefficients, none 0
-  bool complete = true;                             ///< are all its joints of this robot?
-  bool elsewhere = false;                           ///< are some of another robot?
+  /// indices of joints in the tree, with coefficients other than 0
+  std::vector<std::pair<int, double>> joints = {};
+  bool complete = true;    ///< true if all its joints are in this robot
+  bool elsewhere = false;  ///< true if some are in another robot
   bool spatial = false;
-  std::optional<std::array<double, 2>> force_range = {};  ///< of all its actuators together
+  std::optional<std::array<double, 2>> force_range = {};  ///< sum over all its actuators
 
   /// "hand.xml:31: tendon 'split'", for messages
   Place subject() const;
@@ -22,13 +23,14 @@ struct MjcfTendon {
 /// throws  Error for an invalid number or word
 MjcfTendon read_mjcf_tendon(MjcfDocument& document, const XmlElement& element);
 
-/// Adds the tendon's limits, springs, damping and friction, in terms of leading joints; call it after
-/// all ties are made. The range of a tendon with a single leading joint becomes that joint's range.
+/// Adds the tendon's limits, springs, damping and friction, in terms of leading joints; call it
+/// after all couplings are known. The range of a tendon with a single leading joint becomes that
+/// joint's range.
 void add_tendon_dynamics(const MjcfTendon& tendon, MjcfDocument& document, const FileCache& cache,
                          TreeModel& tree);
 
-/// The first of the coefficients of a force that is a polynomial of velocity or length; a warning
-/// names the others unless they are 0.
+/// The first coefficient of a force given as a polynomial of velocity or length; a warning names
+/// the others unless they are 0.
 double linear_part(const XmlValues& values, const char* name, const Place& subject,
                    MjcfDocument& document, const FileCache& cache);
 

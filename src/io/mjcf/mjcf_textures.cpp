@@ -12,7 +12,7 @@ namespace {
 
 constexpr int max_builtin_side = 1024;  // [pixels]
 
-// --- places in images ---
+// --- coordinates in images ---
 
 using TriangleCorners = std::array<Eigen::Vector3d, 3>;
 
@@ -27,7 +27,7 @@ TexturedTriangle flat_place(const TriangleCorners& corners, const std::array<dou
   return out;
 }
 
-// a row of each side: the axes of its image, to the right and down
+// one row per side: the axes of its image, to the right and down
 /// source  OpenGL 3.3, table 3.18: the sides of a cube map
 constexpr struct {
   int right, right_sign, down, down_sign;
@@ -43,7 +43,7 @@ TexturedTriangle cube_place(const TriangleCorners& corners) {
   TexturedTriangle out{.texture = side};
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d& p = corners[k];
-    // a corner may lie beyond the edge of the side, on the next one
+    // a corner may be beyond the edge of the side, on the adjacent one
     const double away = std::max(std::abs(p[axis]), 0.2 * p.cwiseAbs().maxCoeff());
     const double scale = away > 0 ? 0.5 / away : 0;
     out.uv[k] = Eigen::Vector2d(0.5 + scale * axes.right_sign * p[axes.right],

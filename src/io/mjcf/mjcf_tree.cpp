@@ -18,8 +18,8 @@ MjcfTreeReader::MjcfTreeReader(MjcfDocument& document, MjcfGeoms& geoms, const M
 /// Counts of joints in a body and its descendants.
 struct JointCount {
   int all = 0;        // in the body and its descendants, without free joints
-  bool own = false;   // has the body itself a joint that is not free?
-  bool free = false;  // has it a free one?
+  bool own = false;   // true if the body itself has a joint that is not free
+  bool free = false;  // true if it has a free one
 };
 
 static bool is_free(const XmlElement& element, const std::string& child_class,
@@ -28,7 +28,7 @@ static bool is_free(const XmlElement& element, const std::string& child_class,
   return document.values(element, child_class).text("type", "hinge") == "free";
 }
 
-/// Joints may be inside frames, and have their types from classes.
+/// Joints may be inside frames, and their types may come from classes.
 static void count_joints(const MjcfNode& node, const std::string& child_class,
                          const MjcfDocument& document, bool of_body, JointCount& into) {
   for (const MjcfNode& child : node.children) {
@@ -86,7 +86,7 @@ Worldbody read_worldbody(MjcfDocument& document, const char* whole) {
   Worldbody out;
   for (const MjcfNode* node : document.section("worldbody"))
     find_in_world(*node, "", Pose{}, document, whole, out);
-  // a body without a name gets its number as a name, unless another body has that name
+  // a body without a name is named by its number, unless another body has that name
   std::map<std::string, int> names;
   for (const TopBody& body : out.bodies)
     if (body.node->element.attribute("name")) names[body.name] = 0;
@@ -183,7 +183,7 @@ void MjcfTreeReader::read_contents(const MjcfNode& node, int link, const std::st
 
 // --- joints ---
 
-/// Does a range limit the joint?
+/// True if a range limits the joint.
 static bool given_range(const XmlValues& values) {
   if (!values.has("range")) return false;
   const auto range = values.numbers("range", 2, 2);

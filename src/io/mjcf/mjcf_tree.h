@@ -1,15 +1,15 @@
-// Bodies of an MJCF model that hang on one another, as links with their joints and geoms.
+// Trees of MJCF bodies as links with their joints and geoms.
 #pragma once
 #include "clench/io/mjcf/mjcf_geoms.h"
 #include "clench/io/mjcf/mjcf_names.h"
 
 namespace clench {
 
-/// What a row of numbers in a keyframe's qpos stands for: a free joint takes 7, a ball 4, any other
-/// 1.
+/// Meaning of consecutive numbers in a keyframe's qpos: 7 for a free joint, 4 for a ball, 1 for any
+/// other.
 struct QposSlot {
   enum class Kind { joint, ball, free } kind = Kind::joint;
-  int joint = -1;  ///< of a ball: the first of its three turns
+  int joint = -1;  ///< for a ball: the first of its three hinges
 
   int size() const { return kind == Kind::free ? 7 : kind == Kind::ball ? 4 : 1; }
 };
@@ -17,21 +17,21 @@ struct QposSlot {
 struct MjcfTree {
   TreeModel model;
   std::vector<LinkPieces> pieces;            ///< one per link
-  std::vector<std::vector<MjcfGeom>> geoms;  ///< likewise
-  std::vector<std::vector<QposSlot>> slots;  ///< likewise, of its joints
+  std::vector<std::vector<MjcfGeom>> geoms;  ///< per link
+  std::vector<std::vector<QposSlot>> slots;  ///< per link, for its joints
   std::map<std::string, int> links, joints;  ///< by name
   InertialFaults faults;
 };
 
-/// A body directly in the world, with the frame that it stands in.
+/// A body directly in the world, with its frame.
 struct TopBody {
   const MjcfNode* node = nullptr;
   std::string child_class;
   Pose X_frame;
-  std::string name;         ///< of its own, else "body3", as the third one
-  int joints = 0;           ///< in it and beyond, those that are free left out
-  bool own_joints = false;  ///< has it one itself?
-  bool free = false;        ///< does it move freely?
+  std::string name;         ///< in the file; otherwise "body3" for the third body
+  int joints = 0;           ///< in it and its descendants, without free joints
+  bool own_joints = false;  ///< true if the body itself has a joint
+  bool free = false;        ///< true if it moves freely
   bool mocap = false;
 };
 
@@ -42,31 +42,31 @@ struct WorldGeom {
   Pose X_frame;
 };
 
-/// What stands in the world, in the file's order.
+/// Contents of the world, in the file's order.
 struct Worldbody {
   std::vector<TopBody> bodies;
   std::vector<WorldGeom> geoms;
-  std::vector<std::pair<bool, int>> order;  ///< is it a body?, and its number
-  bool lacks_bodies = false;                ///< are there elements that would make more?
+  std::vector<std::pair<bool, int>> order;  ///< true for a body; index
+  bool lacks_bodies = false;                ///< true if there are elements that would generate more
 };
 
-/// whole  what lacks the bodies that are not read: "robot" or "world"
+/// whole  the kind of result that lacks bodies which are not read: "robot" or "world"
 Worldbody read_worldbody(MjcfDocument& document, const char* whole);
 
 /// Reports an element that is not read.
-/// returns  would it generate bodies?
+/// returns  true if it would generate bodies
 bool warn_of_loss(const MjcfNode& node, MjcfDocument& document, const char* whole);
 
 class MjcfTreeReader {
  public:
-  /// names  of the file's elements; outlives this
+  /// names  of the file's elements; must outlive this object
   MjcfTreeReader(MjcfDocument& document, MjcfGeoms& geoms, const MjcfNames& names, FileCache& cache,
                  const char* whole);
 
-  /// A frame that bodies stand on.
+  /// Adds a frame to which bodies are attached.
   void add_world() { add_link(document_.root().element, "world", -1, {}); }
-  /// The body and all that hangs on it. As the base it is the tree's first link, whose own pose is
-  /// left out.
+  /// Reads the body and all its descendants. As the base it is the tree's first link, without a
+  /// pose.
   void read_body(const TopBody& body, bool base);
   MjcfTree take();
 
@@ -96,10 +96,11 @@ class MjcfTreeReader {
   FileCache& cache_;
   const char* whole_;
   MjcfTree tree_;
-  const MjcfNames& names_;           // of the file
-  std::vector<bool> massless_;       // one per link
-  std::set<int> free_;               // links that free joints move
-  std::vector<std::string> raised_;  // bodies whose mass or inertia the compiler's bounds raise
+  const MjcfNames& names_;      // of the file
+  std::vector<bool> massless_;  // one per link
+  std::set<int> free_;          // links moved by free joints
+  // bodies whose mass or inertia is raised to the compiler's bounds
+  std::vector<std::string> raised_;
 };
 
 }  // namespace clench

@@ -39,7 +39,7 @@ std::optional<BodySpec> weigh_tree(const MjcfTree& tree, const std::vector<Pose>
   }
   BodySpec out;
   if (X.size() == 1) {
-    out = tree.model.links[0].body;  // to the bit
+    out = tree.model.links[0].body;  // bit-exactly
   } else {
     out.mass = mass;
     out.com = com;

@@ -1,4 +1,4 @@
-// Links of an MJCF tree that move as one body: their poses and their weight together.
+// Poses of the links of an MJCF tree, and their total mass properties as one body.
 #pragma once
 #include <optional>
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace clench {
 
-/// One per link, in the frame of the first, all joints at zero.
+/// Pose per link, in the frame of the first, all joints at zero.
 std::vector<Pose> tree_poses(const TreeModel& tree);
 
 /// Mass, center of mass and inertia of all links together; empty if that of a link is unknown.

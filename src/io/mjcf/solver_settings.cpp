@@ -13,7 +13,8 @@ static bool has_value(const XmlElement& element, const char* name, const std::st
 
 std::string written_solref(double time_step) { return fmt::format("{} 1", 4 * time_step); }
 
-/// The margin of an element with the stiffness of a written scene, if it is a contact threshold.
+/// The margin of an element with the stiffness of a written scene, if it represents a contact
+/// threshold.
 static std::optional<double> margin_of(const XmlElement& element, double time_step) {
   if (!has_value(element, "solimp", written_solimp) ||
       !has_value(element, "solref", written_solref(time_step)))
@@ -37,7 +38,7 @@ bool is_written_setting(const XmlElement& element, const std::string& attribute,
   return false;
 }
 
-/// The last time step that the document gives, 0 if none is a number [s].
+/// The last time step given by the document, 0 if none is a number [s].
 static double time_step_of(const MjcfDocument& document) {
   double out = 0;
   for (const MjcfNode& node : document.root().children)

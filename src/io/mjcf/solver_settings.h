@@ -1,5 +1,5 @@
-// Settings of MuJoCo's solver in the scenes that are written here. Contacts of a World are rigid and
-// have no such settings, so a reader accepts these values, and reports all others.
+// Settings of MuJoCo's solver in scenes written by Clench. Contacts of a World are rigid and have
+// no such settings, so readers accept these values and report all others.
 #pragma once
 #include <optional>
 #include <string>
@@ -15,15 +15,16 @@ inline constexpr const char* written_solimp = "0.95 0.99 0.0001";
 /// solref of contacts: as stiff as the time step [s] allows
 std::string written_solref(double time_step);
 
-/// Has an attribute of an <option>, <size>, <geom> or <pair> the value that is written here, or
-/// does it set no more than how much memory MuJoCo takes?
+/// True if an attribute of an <option>, <size>, <geom> or <pair> has the value that is written
+/// here, or only limits the memory of MuJoCo.
 /// time_step  of the file, 0 if it gives none [s]
 bool is_written_setting(const XmlElement& element, const std::string& attribute, double time_step);
 
-/// Makes the document report no settings as unused that are written here.
+/// Prevents the document from reporting these settings as unused.
 void accept_written_settings(MjcfDocument& document);
 
-/// The contact threshold [m] that a written scene keeps as the margin of its geoms; none in others.
+/// The contact threshold [m] that a written scene stores as the margin of its geoms; empty for
+/// other scenes.
 std::optional<double> written_threshold(const MjcfDocument& document);
 
 }  // namespace clench

@@ -38,7 +38,7 @@ std::string placed_at(const Pose& X) {
   return out;
 }
 
-/// name="value", unless it is 0.
+/// name="value", unless the value is 0.
 std::string unless_zero(const char* name, double value) {
   return value == 0 ? "" : fmt::format(" {}=\"{}\"", name, value);
 }
@@ -53,7 +53,7 @@ std::string number_words(const std::vector<double>& numbers) {
   return out;
 }
 
-// MuJoCo rejects an inertia whose largest moment exceeds the sum of the others, even by rounding
+// MuJoCo rejects an inertia whose largest moment exceeds the sum of the others even by rounding
 Eigen::Matrix3d checked_by_mujoco(const Eigen::Matrix3d& per_mass) {
   constexpr double slack = 1e-9;
   const Eigen::Matrix3d even = 0.5 * (per_mass + per_mass.transpose());
@@ -124,14 +124,14 @@ void SceneWriter::write_head() {
   line(2, fmt::format("<flag multiccd=\"enable\"{}/>", collides ? "" : " contact=\"disable\""));
   line(1, "</option>");
   line(1, "<size njmax=\"4000\" nconmax=\"1000\"/>");
-  // bodies touch at the distance at which they do here; contacts are as stiff as the step allows
+  // the contact threshold is that of the world; contacts are as stiff as the time step allows
   const std::string stiff = fmt::format("margin=\"{}\" solref=\"{}\" solimp=\"{}\"",
                                         world.contact_threshold.value_or(usual_threshold),
                                         written_solref(request_.time_step), written_solimp);
   line(1, "<default>");
   line(2, fmt::format("<geom {}/>", stiff));
   line(2, fmt::format("<pair {}/>", stiff));
-  // rigid couplings: with MuJoCo's own impedance light fingers yield, and pads touch at one end
+  // rigid couplings: with MuJoCo's default impedance light fingers yield, and pads touch at one end
   line(2, fmt::format("<equality solref=\"{} 1\" solimp=\"0.999 0.9999 0.001\"/>",
                       2 * request_.time_step));
   line(1, "</default>");
@@ -249,7 +249,7 @@ void SceneWriter::write_couplings() {
   for (int r = 0; r < static_cast<int>(request_.world.robots.size()); ++r) {
     const RobotSpec& robot = request_.world.robots[static_cast<size_t>(r)].robot;
     for (int d = 0; d < static_cast<int>(robot.dofs.size()); ++d) {
-      // joints on springs have servos instead of equalities
+      // joints with springs have servos instead of equalities
       if (robot.dofs[static_cast<size_t>(d)].kind == DofKind::compliant) continue;
       const auto joints = joints_of_dof(scene_, r, d);
       for (size_t j = 1; j < joints.size(); ++j) {

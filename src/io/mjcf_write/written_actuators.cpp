@@ -11,7 +11,7 @@ namespace clench {
 
 namespace {
 
-constexpr double servo_frequency = 60;  // of motors without gains, as in dynamics [rad/s]
+constexpr double servo_frequency = 60;  // for motors without gains, as in dynamics [rad/s]
 
 class DrivePlanner {
  public:
@@ -215,7 +215,7 @@ void DrivePlanner::add_own(int r, const ActuatorSpec& from) {
   const auto drives_dof = [&](const WrittenActuator& other) {
     return other.robot == r && other.dof == from.dof && other.effort_share != 0;
   };
-  // one of several presses
+  // of several actuators of a DOF only one exerts the additional effort
   if (reach != 0 && out.gain != 0 && std::ranges::none_of(out_.actuators, drives_dof))
     out.effort_share = 1 / reach;
   out_.actuators.push_back(std::move(out));

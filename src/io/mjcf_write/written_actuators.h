@@ -8,14 +8,14 @@
 
 namespace clench {
 
-/// force = gain * control + bias[0] + hold + bias[1] * length + bias[2] * velocity, within its
+/// force = gain * control + bias[0] + hold + bias[1] * length + bias[2] * velocity, clamped to its
 /// range.
 struct WrittenActuator {
-  std::string name, joint, tendon;  ///< it drives a joint or a tendon; the other is empty
+  std::string name, joint, tendon;  ///< one of joint and tendon is empty
   double gear = 1, gain = 1;
   std::array<double, 2> gain_slopes = {0, 0};
   std::array<double, 3> bias = {0, 0, 0};
-  double hold = 0;  ///< supports the weight of what it moves at the reference posture
+  double hold = 0;  ///< compensates the weight of the moved bodies at the reference posture
   std::optional<std::array<double, 2>> control_range = {}, force_range = {};
   int robot = -1, dof = -1;  ///< -1: of the carriage
   int axis = -1;             ///< of the carriage: 0 to 5
@@ -24,12 +24,12 @@ struct WrittenActuator {
   double effort_share = 0;  ///< force of the actuator per unit of extra effort of the DOF
 };
 
-/// A fixed tendon, of a joint tendon of the robot or of an actuator.
+/// A fixed tendon that represents a joint tendon of the robot, or belongs to an actuator.
 struct WrittenTendon {
   std::string name;
   std::vector<std::pair<std::string, double>> joints;
-  const JointTendonSpec* spec = nullptr;  ///< null: an actuator's, which is passive
-  double shift = 0;  ///< length at zero of all joints of the robot, in our coordinates
+  const JointTendonSpec* spec = nullptr;  ///< null: a passive tendon of an actuator
+  double shift = 0;  ///< length with all joints of the robot at zero, in coordinates of Clench
 };
 
 struct WrittenDrives {
@@ -38,12 +38,12 @@ struct WrittenDrives {
   std::vector<std::string> losses;
 };
 
-/// A robot's own actuators where its file describes them, else a servo for each driven DOF. Servos
-/// support the weight of what they move at the present posture.
+/// The actuators of a robot if its file describes them, otherwise a servo for each driven DOF.
+/// Servos compensate the weight of the moved bodies at the current posture.
 WrittenDrives plan_drives(const SceneRequest& request, const WrittenScene& scene);
 
-/// Control at which the actuator holds a posture, pressing with an extra effort of its DOF.
-/// joints  coordinates of the joints of its robot, as the scene counts them
+/// Control with which the actuator holds a posture and exerts an additional effort on its DOF.
+/// joints  coordinates of the joints of its robot, as in the scene
 double control_for(const WrittenActuator& actuator, const std::vector<double>& joints,
                    double effort);
 

@@ -5,9 +5,9 @@
 
 namespace clench {
 
-// natural frequency of the servos, stiff as a robot arm and critically damped [rad/s]
+// natural frequency of the servos, critically damped and as stiff as those of a robot arm [rad/s]
 static constexpr double carriage_frequency = 200;
-// a base that turns by less has slides only [rad]
+// a base with smaller rotations has only slides [rad]
 static constexpr double min_rotation = 1e-9;
 
 static constexpr const char* axis_names[] = {"carriage_x",    "carriage_y",     "carriage_z",
@@ -25,7 +25,7 @@ std::vector<double> Carriage::coordinates(const Pose& X) const {
   return out;
 }
 
-// mass, center of mass and inertia about the base of all that the carriage moves
+// mass, center of mass and inertia about the base of all bodies that the carriage moves
 static CarriageAxis with_servo(CarriageAxis axis, const WrittenScene& scene, int base,
                                const Eigen::Vector3d& gravity) {
   const Pose& X = scene.bodies[static_cast<size_t>(base)].X_WB;

@@ -12,7 +12,7 @@ namespace clench {
 
 namespace {
 
-// more pairs than these slow MuJoCo down more than they are worth
+// more pairs than these slow MuJoCo down too much
 constexpr size_t max_friction_pairs = 3000;
 
 using BodyNumbers = std::array<int, 2>;
@@ -52,7 +52,7 @@ class ContactPlanner {
   WrittenContacts out_;
 };
 
-// switched-off pairs and bits, by the names of bodies
+// disabled pairs and bits, by names of bodies
 void ContactPlanner::read_rules() {
   out_.bits.assign(scene_.bodies.size(), {1, 1});
   const auto& rules = request_.world.collision;
@@ -92,7 +92,7 @@ void ContactPlanner::exclude_pairs() {
       if (collides(a, b)) meeting_.push_back({a, b});
 }
 
-/// Tries the smallest coefficients; `all`: of all pairs, else of those with objects.
+/// Tries the smallest coefficients; `all`: for all pairs, otherwise for those with objects.
 bool ContactPlanner::fit(bool all) {
   out_.friction.clear();
   for (const BodyNumbers& pair : meeting_) {

@@ -1,4 +1,4 @@
-// Friction of geoms, as MuJoCo combines it, and the pairs that do not collide.
+// Friction of geoms under the combination rule of MuJoCo, and pairs that do not collide.
 #pragma once
 #include <map>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace clench {
 
-/// Two bodies of a scene whose geoms are listed as pairs, with a coefficient of their own.
+/// Two bodies of a scene whose geoms are listed as pairs, with a separate coefficient.
 struct FrictionPair {
   int a = 0, b = 0;
   double mu = 0;
@@ -16,14 +16,14 @@ struct FrictionPair {
 
 struct WrittenContacts {
   std::map<std::string, double> friction;     ///< of geoms, by material
-  std::vector<FrictionPair> pairs;            ///< that geoms' friction cannot express
-  std::vector<std::array<int, 2>> excluded;   ///< bodies, by number
+  std::vector<FrictionPair> pairs;            ///< those that the friction of geoms cannot express
+  std::vector<std::array<int, 2>> excluded;   ///< indices of bodies
   std::vector<std::array<unsigned, 2>> bits;  ///< contype, conaffinity of each body
   std::vector<std::string> losses;
 };
 
-/// MuJoCo takes the larger friction of two geoms. Each material gets the smallest coefficient that
-/// it has with any material that it can touch; pairs that differ then are listed.
+/// MuJoCo uses the larger friction of two geoms. Each material receives the smallest coefficient
+/// that it has with any material that it can touch; pairs that differ then are listed.
 WrittenContacts plan_contacts(const SceneRequest& request, const WrittenScene& scene);
 
 }  // namespace clench

@@ -17,9 +17,9 @@ namespace clench {
 
 namespace {
 
-// more parts than these are written as one mesh
+// a surface with more parts is written as one mesh
 constexpr size_t max_mesh_parts = 64;
-// a hull that is larger by no more than this part is no loss
+// a hull whose volume is larger by at most this fraction is not reported
 constexpr double hull_excess = 0.02;
 
 Eigen::MatrixXd points_of(const Mesh& mesh) {
@@ -50,7 +50,7 @@ Mesh kept_triangles(const Mesh& mesh, Keep keep) {
   return out;
 }
 
-/// Connected parts; vertices at one place connect.
+/// Connected parts; vertices at the same position connect.
 std::vector<Mesh> connected_parts(const Mesh& mesh) {
   std::vector<int> root(mesh.vertices.size());
   std::iota(root.begin(), root.end(), 0);
@@ -116,7 +116,7 @@ std::optional<BoxFit> box_of(const Mesh& mesh) {
   if (corners.size() != 8) return {};
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   for (const auto& p : corners) center += p / 8;
-  // the three nearest to orthogonal edges from one corner
+  // the three edges from one corner that are nearest to orthogonal
   std::array<Eigen::Vector3d, 3> edges;
   size_t count = 0;
   std::vector<Eigen::Vector3d> from_first;
@@ -184,7 +184,7 @@ void SceneGeoms::add_hull(const WrittenBody& body, const Mesh& mesh) {
   add_mesh(body, kept_triangles(surface, [](int) { return true; }), true);
 }
 
-// MuJoCo collides with the hull of each mesh, and refuses meshes without a volume
+// MuJoCo collides with the convex hull of each mesh, and rejects meshes without volume
 void SceneGeoms::add_triangles(const WrittenBody& body, const Shape& shape) {
   if (!shape.has_volume()) {
     open_.push_back(body.name);

@@ -9,12 +9,12 @@
 
 namespace clench {
 
-/// A geom that collides, or that is only drawn.
+/// A geom that collides, or is only drawn.
 struct WrittenGeom {
   std::string name;
   std::string type;  ///< "mesh", "box", "sphere" ...
   std::string size;  ///< of a primitive
-  int mesh = -1;     ///< among the meshes; -1: a primitive
+  int mesh = -1;     ///< index of its mesh; -1: a primitive
   Pose X_BG;         ///< of a primitive
   bool collides = true;
 };
@@ -35,7 +35,7 @@ class SceneGeoms {
   /// Geoms of each body, in the order of `add`.
   const std::vector<std::vector<WrittenGeom>>& geoms() const { return geoms_; }
   const std::vector<WrittenMesh>& meshes() const { return meshes_; }
-  /// Sentences about surfaces that collide differently in MuJoCo, each with names of bodies.
+  /// Messages about surfaces that collide differently in MuJoCo, each with names of bodies.
   std::vector<std::string> losses() const;
 
  private:

@@ -2,7 +2,7 @@
 
 namespace clench {
 
-// coordinates of the joints to which servos drive
+// target coordinates of the servos of joints
 static std::vector<double> targets_of(const WrittenKey& key, const SceneRequest& request,
                                       int robot) {
   const auto r = static_cast<size_t>(robot);

@@ -31,8 +31,8 @@ class ScenePlanner {
   const SceneRequest& request_;
   const WorldSpec& world_;
   WrittenScene out_;
-  std::vector<std::string> body_names_ = {"world"}, joint_names_;  // "world" is MuJoCo's own
-  std::vector<std::vector<std::string>> names_of_joints_;          // of each robot
+  std::vector<std::string> body_names_ = {"world"}, joint_names_;  // "world" is reserved by MuJoCo
+  std::vector<std::vector<std::string>> names_of_joints_;          // per robot
 };
 
 int ScenePlanner::add(const BodySpec& spec, int parent, const Pose& X_WB) {
@@ -54,7 +54,7 @@ void ScenePlanner::add_body(int number) {
   body.body = number;
 }
 
-// positions of all joints: their own, or those that their DOFs give them
+// positions of all joints: individual ones, or those given by their DOFs
 std::vector<double> ScenePlanner::positions(const PlacedRobot& placed) const {
   std::vector<double> out;
   each_joint(placed.robot, [&](const JointSpec& joint) {
@@ -119,7 +119,7 @@ void ScenePlanner::add_link(int robot, int link, int parent, const std::vector<d
   add_links(robot, link, number, q);
 }
 
-// robots that stand on the link, and their adapters
+// robots attached to the link, and their adapters
 void ScenePlanner::add_carried(int robot, int link, int parent) {
   for (const Connection& c : world_.connections) {
     if (c.parent != robot || c.link != link) continue;

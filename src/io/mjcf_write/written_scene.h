@@ -1,4 +1,4 @@
-// A world as the tree of MJCF bodies that is written: names, joints and present poses.
+// A world as the tree of MJCF bodies to be written: names, joints and current poses.
 #pragma once
 #include <functional>
 #include <string>
@@ -9,27 +9,27 @@
 
 namespace clench {
 
-/// A joint of a body; anchor [m] and axis in the body's frame at its present pose.
+/// A joint of a body; anchor [m] and axis in the body's frame at its current pose.
 struct WrittenJoint {
   std::string name;
   const JointSpec* spec = nullptr;
-  int robot = 0, number = 0;  ///< of the robot's joints, link by link
+  int robot = 0, number = 0;  ///< index among the robot's joints, link by link
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitZ();
-  double value = 0;  ///< q now [rad or m]
+  double value = 0;  ///< current q [rad or m]
 
-  /// The joint's value in the robot's own file and in the scene, from its position q [rad or m].
+  /// The joint's coordinate in the robot's file and in the scene, for its position q [rad or m].
   double coordinate(double q) const { return q + spec->offset; }
 };
 
 struct WrittenBody {
   std::string name;
   const BodySpec* spec = nullptr;
-  int parent = -1;  ///< among the bodies; -1: the world
+  int parent = -1;  ///< index of a body; -1: the world
   Pose X_WB;
-  bool free = false;          ///< moves freely, by a joint of its own
-  bool carried = false;       ///< stands on a carriage, see SceneRequest
-  int body = -1;              ///< of the world's bodies; -1: a part of a robot
-  int robot = -1, link = -1;  ///< of the world's robots, and its link; -1: the base
+  bool free = false;          ///< moves freely, by a free joint
+  bool carried = false;       ///< mounted on a carriage, see SceneRequest
+  int body = -1;              ///< index of a body in the world; -1: a part of a robot
+  int robot = -1, link = -1;  ///< index of a robot in the world, and of its link; -1: the base
   std::vector<WrittenJoint> joints = {};
   std::vector<int> children = {};
 
@@ -43,11 +43,11 @@ using FrictionOf = std::function<std::array<double, 2>(const std::string&, const
 struct WrittenKey {
   std::string name;
   std::vector<Pose> bodies;                 ///< one per body of the world
-  std::vector<Pose> robots;                 ///< base of each
-  std::vector<std::vector<double>> joints;  ///< of each robot [rad or m]
-  /// of each robot and DOF, in addition to what holds the posture [N m or N]; empty: none
+  std::vector<Pose> robots;                 ///< base of each robot
+  std::vector<std::vector<double>> joints;  ///< per robot [rad or m]
+  /// per robot and DOF, in addition to the efforts that hold the posture [N m or N]; empty: none
   std::vector<std::vector<double>> efforts = {};
-  /// of each robot, the joints' positions to which servos drive [rad or m]; empty: `joints`
+  /// per robot, target positions of the servos of joints [rad or m]; empty: `joints`
   std::vector<std::vector<double>> targets = {};
 };
 
@@ -56,42 +56,43 @@ struct SceneRequest {
   FrictionOf friction;
   std::string name = "scene";
   std::vector<WrittenKey> keys = {};
-  /// robot whose base three slides along the world's axes move, and three hinges if keys turn it;
-  /// -1: none
+  /// robot whose base moves on three slides along the world's axes, and on three hinges if keys
+  /// turn it; -1: none
   int carriage = -1;
   double time_step = 0.001;           ///< [s]
-  std::vector<int> unsupported = {};  ///< robots whose motors do not carry their weight
+  std::vector<int> unsupported = {};  ///< robots whose motors do not compensate their weight
   /// radius of torsional friction between soft bodies [m]; 0: not known
   double torsion_radius = 0;
 };
 
-/// Bodies depth first, as MuJoCo numbers them.
+/// Bodies in depth-first order, as numbered by MuJoCo.
 struct WrittenScene {
   std::vector<WrittenBody> bodies;
   std::vector<int> roots;
-  std::vector<std::vector<int>> parts;  ///< of each robot, its base and links: numbers of bodies
+  std::vector<std::vector<int>> parts;  ///< per robot, indices of its base and links in `bodies`
 
   const WrittenBody& part(int robot, int link) const {
     return bodies[static_cast<size_t>(
         parts[static_cast<size_t>(robot)][static_cast<size_t>(link + 1)])];
   }
-  /// Is it this body, or does it move with it?
+  /// True if it is this body, or is attached to it.
   bool is_below(int body, int ancestor) const;
-  /// Is it fixed to the world?
+  /// True if it is fixed to the world.
   bool stands(int body) const;
 };
 
 WrittenScene plan_scene(const SceneRequest& request);
 
-/// A joint that its robot's DOF moves, with the body that it moves.
+/// A joint moved by a DOF of its robot, and the body that the joint moves.
 struct MovedBody {
   int body = 0;
   const WrittenJoint* joint = nullptr;
 };
-/// Joints of a DOF, link by link; the first one has the DOF's value, its opposite, or is the first.
+/// Joints of a DOF, link by link. A joint with the value of the DOF, or otherwise with its opposite
+/// value, is moved to the front.
 std::vector<MovedBody> joints_of_dof(const WrittenScene& scene, int robot, int dof);
 
-/// Inertia and weight that a DOF moves at the present posture.
+/// Inertia and weight that a DOF moves at the current posture.
 struct DofLoad {
   double inertia = 0;  ///< [kg m^2 or kg]
   double weight = 0;   ///< effort of gravity on the DOF [N m or N]
@@ -99,7 +100,7 @@ struct DofLoad {
 DofLoad load_of_dof(const WrittenScene& scene, const std::vector<MovedBody>& joints,
                     const Eigen::Vector3d& gravity);
 
-/// `name`, or `name_2` and so on if `taken` has it already; adds the result to `taken`.
+/// `name`, or `name_2` and so on if `taken` contains it already; adds the result to `taken`.
 std::string unique_name(const std::string& name, std::vector<std::string>& taken);
 
 }  // namespace clench

@@ -1,4 +1,4 @@
-// Names of files as other systems spell them: in another case, with back-slashes.
+// File names as spelled on other systems: in different case, with backslashes.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,13 +9,13 @@ namespace clench {
 
 /// Names in a folder, in a fixed order.
 std::vector<std::string> names_in_folder(const std::filesystem::path& folder);
-/// The path itself, or the one that differs in case only; empty when there is neither.
+/// The path itself, or the path that differs only in case; empty if there is neither.
 std::filesystem::path exact_or_case(const std::filesystem::path& path);
-/// The readable file at that path, else one whose path differs only in case; empty when there is
+/// The readable file at that path, otherwise one whose path differs only in case; empty if there is
 /// none.
 std::filesystem::path find_in_any_case(const std::filesystem::path& file,
                                        const ReadOptions& options);
-/// Slashes in place of back-slashes, as files written on Windows have them.
+/// Replaces backslashes, as in files written on Windows, by slashes.
 std::string with_slashes(std::string name);
 
 }  // namespace clench

@@ -1,4 +1,4 @@
-// Binary files taken apart value by value; their end is checked before every value.
+// Reads binary data value by value; each read checks that enough bytes are left.
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace clench {
 
-/// How a number is kept.
+/// Binary representation of a number.
 enum class NumberType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 inline size_t bytes_of(NumberType type) {
@@ -24,7 +24,7 @@ class ByteReader {
   size_t left() const { return bytes_.size() - at_; }
   size_t position() const { return at_; }
   void skip(size_t count) { at_ += count < left() ? count : left(); }
-  /// The next value, an arithmetic type.   Call only while left() >= sizeof(T); else zero.
+  /// The next value, an arithmetic type.   Call only while left() >= sizeof(T); otherwise zero.
   template <class T>
   T next() {
     if (left() < sizeof(T)) {

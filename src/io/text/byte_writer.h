@@ -1,4 +1,4 @@
-// Binary files put together value by value: the other side of ByteReader.
+// Writes binary data value by value: the counterpart of ByteReader.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace clench {
 
-/// The bytes of a number, least one first, at the end of `out`.
+/// Appends the bytes of a number to `out`, least significant byte first.
 template <class Number>
 void append_little_endian(std::string& out, Number value) {
   static_assert(std::is_arithmetic_v<Number>);

@@ -14,13 +14,14 @@ static bool is_below(const fs::path& path, const fs::path& folder) {
          folder.end();
 }
 
-/// Where a path leads, whether anything is there or not; empty when links lead in a circle.
-/// visit(link)  called with the place of each link along the path
+/// The target of a path with all links followed, even if it does not exist; empty if links form a
+/// cycle.
+/// visit(link)  called with the path of each link on the way
 template <class Visit>
 static fs::path resolved(const fs::path& path, Visit visit) {
-  constexpr int link_limit = 40;  // as many as the system follows
+  constexpr int link_limit = 40;  // limit of the operating system
   std::error_code code;
-  std::vector<fs::path> rest;  // the next part last
+  std::vector<fs::path> rest;  // in reverse order
   const auto add = [&](const fs::path& parts) {
     rest.insert(rest.end(), parts.begin(), parts.end());
     std::reverse(rest.end() - std::distance(parts.begin(), parts.end()), rest.end());
@@ -35,7 +36,7 @@ static fs::path resolved(const fs::path& path, Visit visit) {
       out = out.parent_path();
       continue;
     }
-    const fs::path next = out / part;  // "/" leads back to the root
+    const fs::path next = out / part;  // "/" restarts at the root
     const fs::path target = fs::read_symlink(next, code);
     if (code) {
       out = next;
@@ -56,7 +57,7 @@ static fs::path resolved(const fs::path& path) {
 bool lies_within(const fs::path& path, const fs::path& folder) {
   if (folder.empty()) return true;
   const fs::path at = resolved(path), home = resolved(folder);
-  // of a folder that cannot be told nothing is known to lie in
+  // if the folder cannot be resolved, no path counts as inside it
   return !home.empty() && is_below(at, home);
 }
 

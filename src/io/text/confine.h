@@ -1,22 +1,22 @@
-// Which files may be read at all: those below one folder, wherever links lead.
+// Restricts reading and writing to files below one folder, with links resolved.
 #pragma once
 #include <filesystem>
 
 namespace clench {
 
-/// Does the path lie below the folder, or is it that folder? An empty folder holds everything.
-/// Links are followed, whether there is anything at their end or not, so that the answer tells
-/// nothing of what is there.
+/// True if the path is the folder or lies below it; always true for an empty folder. Links are
+/// followed even if their targets do not exist, so that the answer does not reveal which files
+/// exist.
 bool lies_within(const std::filesystem::path& path, const std::filesystem::path& folder);
 
-/// Does a link that lies in the folder lead out of it? A path that names a place outside by itself
-/// does not; nothing leads out of an empty folder.
+/// True if a link inside the folder leads out of it. False for paths that name a place outside the
+/// folder directly, and for an empty folder.
 bool leads_out(const std::filesystem::path& path, const std::filesystem::path& folder);
 
-/// A file to be written, wherever its path names: never through a link that lies in `confine` and
-/// leads out of it, as a folder from a stranger may hold one.
+/// Checks a file before it is written. Its path may be outside `confine`, but must not leave it
+/// through a link inside it: a folder received from a stranger may contain such links.
 /// throws Error  "mug.obj: a link leads out of downloads, to which reading is confined; nothing is
-///               written"
+///              written"
 void check_target(const std::filesystem::path& file, const std::filesystem::path& confine);
 
 }  // namespace clench

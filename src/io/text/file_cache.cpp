@@ -45,7 +45,7 @@ RobotSpec FileCache::named_robot(const std::string& name, const fs::path& referr
 
 fs::path FileCache::find_part(const std::string& name, const fs::path& robot,
                               const Place& place) const {
-  // in the folder iv/ beside the robot's file, or of the folder that the call names
+  // in the folder iv/ next to the robot's file, or of the folder given by the caller
   std::vector<fs::path> folders = {robot.parent_path() / "iv"};
   if (!options_.folder.empty()) folders.push_back(options_.folder / "iv");
   for (const auto& folder : folders)

@@ -1,4 +1,4 @@
-// Files already read in one call: a link that five fingers share is read, and kept, once.
+// Caches the files read in one call: a link used by five fingers is read and stored once.
 #pragma once
 #include <map>
 
@@ -9,16 +9,14 @@ namespace clench {
 
 class FileCache;
 
-/// How a file that was found becomes a spec. What else it names is asked of the cache.
+/// Functions that read a file into a spec. They read all further files through the cache.
 struct Loaders {
   BodySpec (*body)(const std::filesystem::path& path, FileCache& cache);
-  /// body  of a scene: the body that the robot's tree of joints begins with; empty: the robot of
-  ///       the file
+  /// body  scenes: the root body of the robot's joint tree; empty: the robot of the file
   RobotSpec (*robot)(const std::filesystem::path& path, const std::string& body, FileCache& cache);
 };
 
-/// Bodies and robots by the file they stand in. Lives as long as one call of read_robot or
-/// read_world.
+/// Bodies and robots by file. Its lifetime is one call of read_robot or read_world.
 class FileCache {
  public:
   FileCache(const ReadOptions& options, const Loaders& loaders)
@@ -26,17 +24,17 @@ class FileCache {
 
   const ReadOptions& options() const { return options_; }
   const Diagnostics& diagnostics() const { return options_.diagnostics; }
-  /// `path` as find_model gives it
+  /// `path` as returned by find_model
   const BodySpec& body(const std::filesystem::path& path);
   const RobotSpec& robot(const std::filesystem::path& path, const std::string& body = "");
-  /// The body that a line of another file names; errors begin with `place`, dlr.wld:3.
+  /// The body named on a line of another file; errors begin with `place`, dlr.wld:3.
   BodySpec named_body(const std::string& name, const std::filesystem::path& referrer,
                       const Place& place);
-  /// "scene.xml#arm": that robot of a scene.
+  /// A robot by file name; "scene.xml#arm" names a robot of a scene.
   RobotSpec named_robot(const std::string& name, const std::filesystem::path& referrer,
                         const Place& place);
-  /// The body of a link: names in a robot's file `robot` count from the folder iv/ beside it,
-  /// then as find_file has it.
+  /// The body of a link: names in a robot's file `robot` are relative to the folder iv/ next to it,
+  /// otherwise looked up as by find_file.
   BodySpec part(const std::string& name, const std::filesystem::path& robot, const Place& place);
 
  private:

@@ -1,4 +1,5 @@
-// What is wrong with a file is an error of that kind, told at its place, whoever finds it.
+// Adds kind and place to errors: any error caused by a file's contents becomes an error of that
+// file.
 #pragma once
 #include <string>
 #include <type_traits>
@@ -7,7 +8,7 @@
 
 namespace clench {
 
-/// What `read` returns; its errors of input become errors of the file.
+/// Returns the result of `read`; converts its input errors to file errors.
 template <class Read>
 auto of_file(Read&& read) {
   try {
@@ -21,8 +22,8 @@ auto of_file(Read&& read) {
   }
 }
 
-/// What `read` returns; its errors begin with `place`, and stay of their kind.
-/// place  Barrett.cfg:31, or a line, an element or a reader that knows it
+/// Returns the result of `read`; prepends `place` to its errors and keeps their kind.
+/// place  Barrett.cfg:31; or a line, an element or a reader that has a place
 template <class At, class Read>
 auto errors_at(const At& place, Read&& read) {
   try {

@@ -15,14 +15,14 @@ namespace {
 
 using Format = GeometryFormat;
 
-/// An ending, or the name of an outermost element.
+/// An ending, or the name of a root element.
 struct Mark {
   std::string_view text;
   FileKind kind;
   Format format = Format::none;
 };
 
-// a Lua file may hold anything; those that name a world return one
+// a Lua file may contain anything; one that is opened as a world must return a world
 constexpr Mark known_endings[] = {
     {".wld", FileKind::world},
     {".lua", FileKind::world},
@@ -50,7 +50,7 @@ constexpr Mark known_endings[] = {
     {".dae", FileKind::body, Format::collada},
 };
 
-// the outermost element of a body is called as its author likes
+// the root element of a body may have any name
 constexpr Mark root_elements[] = {
     {"world", FileKind::world},
     {"robot", FileKind::robot},
@@ -64,14 +64,14 @@ const Mark* find(std::span<const Mark> marks, std::string_view text) {
   return found == marks.end() ? nullptr : &*found;
 }
 
-constexpr size_t max_numbers = 10'000'000;  // of a file that holds nothing else
+constexpr size_t max_numbers = 10'000'000;  // limit for files that contain only numbers
 
-/// Numbers, taken one after the other; beyond the last one there are none.
+/// Consumes numbers one by one; at the end, reads fail.
 class Numbers {
  public:
   explicit Numbers(const std::vector<double>& numbers) : numbers_(numbers) {}
 
-  /// A count of things, or empty.
+  /// A number that is a valid count; otherwise empty.
   std::optional<size_t> count() {
     if (at_ >= numbers_.size()) return {};
     const double x = numbers_[at_++];
@@ -93,7 +93,7 @@ bool is_calibration(Numbers x) {
   return x.used_up();
 }
 
-/// `placed`  has each contact a point?
+/// placed  true if each contact has a point
 bool is_contacts(Numbers x, bool placed) {
   const auto count = x.count();
   for (size_t i = 0; count && i < *count; ++i) {
@@ -125,7 +125,7 @@ bool is_glove_poses(Numbers x) {
 std::optional<FileKind> kind_of_numbers(const std::string& text) {
   LineReader lines("", text);
   std::vector<double> numbers;
-  std::vector<int> widths;  // how many numbers each line holds
+  std::vector<int> widths;  // count of numbers per line
   while (lines.skip_to_full()) {
     const Line line = lines.next().before('#');
     if (numbers.empty() && line.text().front() == '[')
@@ -134,7 +134,7 @@ std::optional<FileKind> kind_of_numbers(const std::string& text) {
     for (int i = 0; i < line.size(); ++i) {
       if (numbers.size() >= max_numbers) return {};
       const auto value = parse_number(line.word(i));
-      // a mistake further down is the reader's to tell
+      // errors further down are left to the reader
       if (!value && widths.empty()) return {};
       numbers.push_back(value.value_or(0));
     }
@@ -146,7 +146,7 @@ std::optional<FileKind> kind_of_numbers(const std::string& text) {
   if (is_contacts(Numbers(numbers), true) || is_contacts(Numbers(numbers), false))
     return FileKind::object_contacts;
   if (is_glove_poses(Numbers(numbers))) return FileKind::glove_poses;
-  // one that is cut off or has a number too many is known by how its lines begin
+  // an incomplete list, or one with a surplus number, is recognized by its line lengths
   Numbers counts(numbers);
   if (widths[0] == 2 && widths.size() > 1 && counts.count() && counts.count())
     return FileKind::glove_calibration;
@@ -162,10 +162,10 @@ FileKind file_kind(const std::filesystem::path& path) {
     return root ? root->kind : FileKind::body;
   }
   if (const Mark* known = find(known_endings, ending)) return known->kind;
-  // any of these lists is complete in so many bytes
+  // all of these lists are complete within this size
   const std::string start = plain_text(read_start(path, size_t{4} << 20));
   if (const auto kind = kind_of_numbers(start)) return *kind;
-  // the head of our own lists, whatever the file is called
+  // the first line of lists written by Clench, with any file name
   if (start.starts_with('{') &&
       start.substr(0, start.find('\n')).find("clench grasps") != start.npos)
     return FileKind::grasps;

@@ -1,5 +1,5 @@
-// What a file describes, told from its ending and, in XML, from its outermost element. The one list
-// of the endings that are read.
+// Determines the kind of a file by its ending and, for XML, by its root element. Contains the only
+// list of supported endings.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -23,36 +23,38 @@ enum class FileKind {
   grasps
 };
 
-/// path  of a file that exists. One whose ending says nothing is known by how its numbers stand.
+/// path  an existing file. If its ending is unknown, the arrangement of its numbers determines the
+///       kind.
 /// throws Error  "notes.txt: expected a model, a world, or a file that goes with one, got '.txt'"
 FileKind file_kind(const std::filesystem::path& path);
 
-/// What a text of nothing but numbers describes; empty when it is no such text, or fits none.
+/// The kind of a text that consists only of numbers; empty if it has other contents or matches no
+/// kind.
 std::optional<FileKind> kind_of_numbers(const std::string& text);
 
 /// "body", "robot", "world", "eigengrasps", "virtual contacts", "object contacts", "pre-grasps",
 /// "planned grasps", "glove calibration", "glove poses", "grasps"
 const char* kind_name(FileKind kind);
 
-/// Who reads a file of geometry.
+/// File formats of geometry.
 enum class GeometryFormat { none, inventor, off, ply, obj, stl, gltf, collada };
 
-/// In small letters: ".iv"; empty when there is none.
+/// In lower case: ".iv"; empty if the path has no ending.
 std::string ending_of(const std::filesystem::path& path);
 
-/// none: no file of that ending holds geometry alone
+/// none: the ending is not one of a format for geometry alone
 GeometryFormat geometry_format(std::string_view ending);
 
-/// Is it an Inventor or VRML file?
+/// True for Inventor and VRML files.
 bool is_inventor(const std::filesystem::path& path);
 
-/// Endings of files of geometry, in the order in which they are tried; of a body's, .xml first.
+/// Endings of geometry files, in the order in which they are tried; those of bodies, .xml first.
 std::vector<std::string> geometry_endings();
 std::vector<std::string> body_endings();
-/// Those of one format.
+/// Endings of one format.
 std::vector<std::string> endings_of(GeometryFormat format);
 
-/// For a sentence: ".iv, .wrl or .off"
+/// For messages: ".iv, .wrl or .off"
 std::string one_of(const std::vector<std::string>& endings);
 
 }  // namespace clench

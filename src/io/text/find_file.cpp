@@ -14,7 +14,7 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-/// A near name in the folder where the file should be, of the first place that has such a folder.
+/// A similar name in the folder of the first candidate path whose folder exists.
 static std::string suggestion(const std::vector<fs::path>& places, const ReadOptions& options) {
   for (const auto& place : places) {
     const fs::path folder = exact_or_case(place.parent_path().empty() ? "." : place.parent_path());
@@ -25,8 +25,9 @@ static std::string suggestion(const std::vector<fs::path>& places, const ReadOpt
   return "";
 }
 
-/// Where a name may be meant: beside the referrer, below the folder and the root of the call, below
-/// the referrer's parent folder; for the user's own where we stand, and where our models are.
+/// Candidate paths for a name: next to the referrer, below the folder and the root of the call,
+/// below the referrer's parent folder; for names given by the user, in the current folder and in
+/// the folder of the installed models.
 static std::vector<fs::path> places_of(const fs::path& name, const fs::path& referrer,
                                        const ReadOptions& options) {
   if (name.is_absolute()) return {name.lexically_normal()};
@@ -52,7 +53,7 @@ void fail_outside(const std::string& name, const ReadOptions& options) {
        options.confine.generic_string());
 }
 
-/// What stands there is no regular file, or a link that leads to none.
+/// The path exists but is not a regular file, or is a dangling link.
 [[noreturn]] static void fail_no_file(const fs::path& found, const std::string& shown) {
   std::error_code code;
   const fs::file_type type = fs::status(found, code).type();
@@ -70,13 +71,14 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
   if (slashed.find('\0') != std::string::npos || slashed.size() > 4096)
     fail(ErrorKind::file, "no such file: {}", in_quotes(name));
 
-  // a backslash may belong to the name itself; that is tried first
+  // a backslash may be part of the name itself; that is tried first
   std::vector<fs::path> places;
   if (slashed != name) places = places_of(name, referrer, options);
   std::ranges::copy(places_of(slashed, referrer, options), std::back_inserter(places));
-  // of what lies outside nothing is asked, so that no answer tells what is there
+  // no file outside `confine` is accessed, so that messages do not reveal its existence
   std::erase_if(places, [&](const auto& place) { return !lies_within(place, options.confine); });
-  // a name from a file is quoted as all of it is; the user's own stands whole
+  // names from files are shortened like all quoted contents; names given by the user are shown
+  // completely
   const std::string shown = referrer.empty() ? name : excerpt(name);
   if (places.empty()) fail_outside(shown, options);
   for (const auto& place : places)
@@ -88,7 +90,7 @@ fs::path find_file(const std::string& name, const fs::path& referrer, const Read
     if (const fs::path found = exact_or_case(place);
         !found.empty() && lies_within(found, options.confine))
       fail_no_file(found, shown);
-  // what the system does not let us see may be there
+  // a path for which the system denies access may exist
   for (const auto& place : places)
     if (fs::status(place, code).type() == fs::file_type::none)
       fail(ErrorKind::file, "{}: the file cannot be read: {}", shown, system_reason(code.value()));

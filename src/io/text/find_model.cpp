@@ -9,12 +9,12 @@ namespace clench {
 
 namespace fs = std::filesystem;
 
-// robots: of the two generations only, for a tree need not be the same robot
+// robots: only endings of GraspIt!, because a URDF or MJCF file need not describe the same robot
 static std::vector<std::string> endings_of(ModelKind kind) {
   return kind == ModelKind::body ? body_endings() : std::vector<std::string>{".xml", ".cfg"};
 }
 
-// the name itself, else with another ending; empty when there is none
+// the name itself, otherwise with another ending; empty if there is none
 static fs::path try_endings(const std::string& name, const fs::path& referrer, ModelKind kind,
                             const ReadOptions& options) {
   std::vector<std::string> names = {name};
@@ -25,13 +25,13 @@ static fs::path try_endings(const std::string& name, const fs::path& referrer, M
   return {};
 }
 
-// "graspit" of "GraspIt-4.0"
+// "graspit" for "GraspIt-4.0"
 static std::string first_word(const fs::path& folder) {
   const std::string name = lower_case(folder.filename().string());
   return name.substr(0, name.find_first_not_of("abcdefghijklmnopqrstuvwxyz"));
 }
 
-// below the folders beside `root` that are called like it, in the order of their names
+// searches the folders next to `root` whose names begin with the same word, in alphabetical order
 static fs::path try_generations(const std::string& name, const fs::path& root, ModelKind kind,
                                 const ReadOptions& options) {
   const fs::path home = (fs::absolute(root).lexically_normal() / "").parent_path();
@@ -48,7 +48,7 @@ static fs::path try_generations(const std::string& name, const fs::path& root, M
   }
   std::sort(folders.begin(), folders.end());
   for (const auto& folder : folders)
-    // find_file looks in the folder above, too
+    // find_file also searches the folder above
     if (const fs::path found = try_endings(name, folder / "x", kind, options.beside_only());
         !found.empty() && *found.lexically_relative(folder).begin() != "..")
       return found;
@@ -73,7 +73,7 @@ fs::path find_model(const std::string& name, const fs::path& referrer, ModelKind
   try {
     return find_converted(name, referrer, kind, place, options);
   } catch (const Error& missing) {
-    // only names that count from a root mean the same in another one
+    // only names relative to a root mean the same below another root
     const fs::path relative = name;
     const bool rooted = relative.is_relative() && relative.has_parent_path() &&
                         name.find("..") == std::string::npos && !referrer.empty();

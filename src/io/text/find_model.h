@@ -1,5 +1,5 @@
-// Where the body or robot that a file names is, also when the files around it are of another
-// generation.
+// Finds the file of a body or robot, even if the files around it are from another version of a
+// model library.
 #pragma once
 #include "clench/io/text/find_file.h"
 
@@ -7,17 +7,18 @@ namespace clench {
 
 enum class ModelKind { body, robot };
 
-/// As find_file; where that fails, the same name with another ending of its kind (a body's .iv for
-/// .xml, a robot's .cfg for .xml, and back), which is noted. `place` begins the sentence.
+/// As find_file; if that fails, tries the same name with other endings of its kind (for bodies .iv
+/// instead of .xml, for robots .cfg instead of .xml, and vice versa) and reports the replacement as
+/// a note. The message begins with `place`.
 /// throws Error as find_file
 std::filesystem::path find_converted(const std::string& name, const std::filesystem::path& referrer,
                                      ModelKind kind, const Place& place,
                                      const ReadOptions& options);
 
-/// As find_converted, for names that count from the root; where that fails, below the folders
-/// beside the root (without one, beside the folder above the referrer's) whose names begin with the
-/// same word, as graspit beside graspit-xml: the generations of a model library often lie side by
-/// side. That is told as repaired. No other folder outside the root is looked through.
+/// As find_converted, for names relative to the root. If that fails, searches the folders next to
+/// the root (without a root, next to the folder above the referrer's) whose names begin with the
+/// same word: versions of a model library are often stored side by side, like graspit and
+/// graspit-xml. The result is reported as repaired. No other folders outside the root are searched.
 std::filesystem::path find_model(const std::string& name, const std::filesystem::path& referrer,
                                  ModelKind kind, const Place& place, const ReadOptions& options);
 

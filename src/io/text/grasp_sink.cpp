@@ -6,11 +6,11 @@ namespace clench {
 
 namespace {
 
-// a block of the heap has a head and is rounded up
+// header of a heap block and rounding of its size
 constexpr size_t heap_block = 16;
-// a grasp in a list of a script: the same, its contacts and wrench spaces
+// a grasp in a list of a script: the spec, its contacts and wrench spaces
 constexpr size_t grasp_bytes = sizeof(GraspSpec) + 80;
-// of a node of a map: three links and a color, and its block
+// node of a map: three links, a color, and its heap block
 constexpr size_t node_bytes = 32 + heap_block;
 
 size_t memory_of(const std::string& text) {

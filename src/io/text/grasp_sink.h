@@ -1,5 +1,5 @@
-// Where the readers of grasp lists put what they read, one grasp after the other, and how much
-// memory that may take.
+// Receivers for grasps that readers of lists pass on one by one, and a limit on the memory of these
+// grasps.
 #pragma once
 #include <functional>
 #include <string>
@@ -9,17 +9,18 @@
 
 namespace clench {
 
-/// Receiver of the grasps of a file. Readers call it as they go, so that a long list is held once.
+/// Receiver of the grasps of a file. Readers call it during reading, so that a long list is stored
+/// only once.
 struct GraspSink {
   std::function<void(GraspSpec&&)> add;
   /// called before the first grasp with an upper bound of their number; may be empty
   std::function<void(size_t)> expect = {};
 };
 
-/// Memory that a grasp of a list takes, its names and numbers included [bytes].
+/// Memory used by a grasp in a list, including its names and numbers [bytes].
 size_t memory_of(const GraspSpec& grasp);
 
-/// Passes grasps on and counts their memory.
+/// Passes grasps on and limits their total memory.
 class GraspCollector {
  public:
   /// bytes  size of the file
@@ -27,7 +28,7 @@ class GraspCollector {
       : budget_(file, bytes), sink_(sink) {}
 
   MemoryBudget& budget() { return budget_; }
-  /// count  upper bound of the grasps to come
+  /// count  upper bound of the number of grasps that follow
   void expect(size_t count);
   /// throws  Error as MemoryBudget
   void add(GraspSpec&& grasp);

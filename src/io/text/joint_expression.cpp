@@ -9,14 +9,14 @@ std::optional<JointExpression> parse_joint_expression(std::string_view text) {
   text.remove_prefix(1);
   JointExpression out;
 
-  // the DOF's number
+  // number of the DOF
   const size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
   const auto dof = parse_integer(text.substr(0, digits));
   if (!dof) return {};
   out.dof = *dof;
   text.remove_prefix(digits);
 
-  // a ratio, up to the sign of the offset; the sign after '*' or 'e' is the ratio's own
+  // a ratio, up to the sign of the offset; a sign after '*' or 'e' belongs to the ratio
   if (text.starts_with('*')) {
     size_t end = 2;
     while (end < text.size() &&

@@ -51,7 +51,7 @@ class JsonReader {
     is_first_ = true;
   }
 
-  // the next entry of what is open, or its end
+  // the next entry of the open list or map, or its end
   void entry() {
     skip_blanks();
     const char end = open_.back();
@@ -156,7 +156,7 @@ class JsonReader {
 
   std::string_view text_;
   ValueTree& out_;
-  std::string open_;  // the brackets that close what is open
+  std::string open_;  // brackets that close the open lists and maps
   bool is_first_ = false;
   size_t at_ = 0;
   int line_ = 1;

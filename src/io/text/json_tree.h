@@ -8,15 +8,15 @@
 
 namespace clench {
 
-/// Why a text is not JSON, and where.
+/// Error in a JSON text: its place and message.
 struct JsonFault {
   int line = 0;
   std::string sentence;  ///< "expected ',' or ']', got 'x'"
 };
 
-/// Adds the text to an empty tree. Numbers, true and false are scalars as they are written, null is
-/// an empty one.
-/// returns  what is wrong; empty: the tree is complete
+/// Adds the text to an empty tree. Numbers, true and false are stored as scalars as written, null
+/// as an empty scalar.
+/// returns  the error in the text; empty: the tree is complete
 /// throws   Error as ValueTree does
 std::optional<JsonFault> read_json_tree(std::string_view text, ValueTree& out);
 

@@ -1,4 +1,4 @@
-// A bound on the memory that a reader keeps for a file.
+// Limit on the memory that a reader uses for the contents of a file.
 #pragma once
 #include <string>
 
@@ -6,8 +6,8 @@
 
 namespace clench {
 
-/// Limits the contents that a reader keeps to 20 times the size of their file plus 64 MB, so that a
-/// small file cannot fill the memory.
+/// Limits the contents to 20 times the size of the file plus 64 MB, so that a small file cannot
+/// exhaust the memory.
 class MemoryBudget {
  public:
   static constexpr size_t fixed = size_t{64} << 20, times = 20;
@@ -17,8 +17,9 @@ class MemoryBudget {
   MemoryBudget(std::string file, size_t bytes)
       : file_(std::move(file)), limit_(fixed + times * bytes), left_(limit_) {}
 
-  /// Call before the memory is taken.
-  /// throws  Error  "g.csv: its contents take more than 84 MB of memory: 20 times the file and 64 MB"
+  /// Call before the memory is allocated.
+  /// throws  Error  "g.csv: its contents take more than 84 MB of memory: 20 times the file and 64
+  ///         MB"
   void take(size_t bytes) {
     if (bytes > left_)
       fail(ErrorKind::limit,

@@ -28,7 +28,8 @@ int NumberReader::integer(std::string_view what, int low, int high) {
 }
 
 Eigen::VectorXd NumberReader::numbers(int count, std::string_view what) {
-  std::vector<double> out;  // grows with the file, not with what it promises
+  // grows with the contents of the file, not with the count that it claims
+  std::vector<double> out;
   for (int i = 0; i < count; ++i) out.push_back(number(what));
   return Eigen::Map<const Eigen::VectorXd>(out.data(), count);
 }

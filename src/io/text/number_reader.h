@@ -1,4 +1,4 @@
-// Numbers in a row, wherever the lines of a text file end.
+// Reads a sequence of numbers from a text file, independent of line ends.
 #pragma once
 #include <Eigen/Geometry>
 #include <functional>
@@ -10,7 +10,7 @@ namespace clench {
 
 class NumberReader {
  public:
-  /// Goes on where `lines` is. Words from one that begins with '#' on are a comment.
+  /// Continues at the current position of `lines`. A word that begins with '#' starts a comment.
   explicit NumberReader(LineReader& lines) : lines_(lines) {}
 
   /// throws Error  "hand.vgr:7: mu: expected a number, got 'x'" ("... got the end of the file")
@@ -20,14 +20,14 @@ class NumberReader {
   Eigen::VectorXd numbers(int count, std::string_view what);
   Eigen::Vector3d vector(std::string_view what) { return numbers(3, what); }
   /// Four numbers in the order w x y z.
-  /// throws Error when they are all near zero
+  /// throws Error if they are all near zero
   Eigen::Quaterniond quaternion(std::string_view what);
 
-  /// Is there another word?
+  /// True if there is another word.
   bool more();
-  /// where the last word stood, or the next one when there was none
+  /// line of the last word, or of the next one if the last read found none
   const Line& line() const { return line_; }
-  /// Warns of the first word that is left, if there is one.
+  /// Warns of the first unused word, if there is one.
   void finish(const Diagnostics& diagnostics);
 
  private:
@@ -38,13 +38,14 @@ class NumberReader {
   int next_ = 0;
 };
 
-/// Warns when a line has more than the first `used` words, but for a comment that begins with '#'.
+/// Warns if a line has more than the first `used` words, except for a comment that begins with '#'.
 void warn_of_surplus(const Line& line, int used, const Diagnostics& diagnostics);
 
-/// Numbers as a line holds them: "1 2.5 3".
+/// Numbers separated by blanks: "1 2.5 3".
 std::string listed(const Eigen::VectorXd& numbers);
 
-/// The quaternion made unit, kept to the bit when it is but for rounding; empty when near zero.
+/// The normalized quaternion, kept bit-exactly if it is a unit quaternion up to rounding; empty if
+/// near zero.
 std::optional<Eigen::Quaterniond> made_unit(const Eigen::Vector4d& wxyz);
 
 }  // namespace clench

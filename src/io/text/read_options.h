@@ -1,5 +1,5 @@
-// What a call that reads files is told: where to look, whom to tell, what to make of what files
-// leave open.
+// Options for reading files: search paths, receivers of diagnostics, and defaults for properties
+// that files leave open.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -13,45 +13,46 @@
 namespace clench {
 
 struct ReadOptions {
-  /// where relative names are looked up after the referring file's folder
+  /// root for relative names, searched after the folder of the referring file
   std::filesystem::path root = {};
-  /// robots: files to read in place of those that theirs names; empty: none
+  /// robots: files to read instead of those named in the robot's file; empty: none
   std::string eigengrasps = {}, virtual_contacts = {};
-  /// receives what files contain and is not used, leave open, have wrong, and what looks wrong
+  /// receives unused, unspecified, invalid and suspicious contents of files
   Diagnostics diagnostics = {};
-  /// geometry files: length of their unit, > 0 [m]; absent: what the format or the file says, else
-  /// silent_mesh_unit
+  /// geometry files: length of their unit, > 0 [m]; absent: as given by the format or the file,
+  /// otherwise silent_mesh_unit
   std::optional<double> mesh_scale = {};
-  /// length of the unit of mesh files that say nothing of it, > 0 [m]; absent: guessed by size
+  /// length of the unit of mesh files that do not specify one, > 0 [m]; absent: guessed by size
   std::optional<double> silent_mesh_unit = {};
-  /// where names in a file are looked up after the file's own folder, before the root
+  /// folder for names in a file, searched after the file's own folder and before the root
   std::filesystem::path folder = {};
-  /// where names that a user gives, models/... and worlds/..., are looked up last; empty: nowhere
+  /// folder searched last for names given by the user, models/... and worlds/...; empty: none
   std::filesystem::path home = {};
-  /// nothing is read that does not lie below this folder, links followed; empty: anything may be
+  /// only files below this folder are read, with links resolved; empty: no restriction
   std::filesystem::path confine = {};
-  /// where the packages lie that URDF files name: by name; under "" any of them
+  /// folders of the packages that URDF files name: by name; under "" for any of them
   std::map<std::string, std::filesystem::path> packages = {};
-  /// how DOFs close, by name or number from 1: 1 up, -1 down, 0 not; the
-  /// rest is as the file says, else guessed
+  /// closing directions of DOFs, by name or number from 1: 1 up, -1 down, 0 not; the others are
+  /// taken from the file, otherwise guessed
   std::map<std::string, double> closing = {};
-  /// the same, from 1; where names are digits a number is no name
+  /// the same by number, from 1; needed if names are digits, because then a number is not taken as
+  /// a name
   std::map<int, double> closing_by_number = {};
-  /// of a scene: the body that the robot's tree of joints begins with; empty: the file's one robot
+  /// scenes: the root body of the robot's joint tree; empty: the only robot of the file
   std::string body = {};
-  /// approach frame in the base; absent: what the file says, else guessed
+  /// approach frame in the base; absent: as given by the file, otherwise guessed
   std::optional<Pose> approach = {};
-  /// .dae .gltf .glb: turn what the file calls up to z? (A URDF takes the axes as they stand.)
+  /// .dae .gltf .glb: if true, the file's up axis is turned to z. (URDF uses the axes unchanged.)
   bool turn_mesh_up = true;
-  /// told of each file; what reads it throws Stopped
+  /// receives the progress for each file; if it asks to stop, readers throw Stopped
   Progress progress = {};
 
-  /// As these, but names count from the folder of their file alone.
+  /// The same options, but names are relative to the folder of their file alone.
   ReadOptions beside_only() const;
 };
 
-/// The same, but what would be warned of is thrown: nothing is repaired, left out or suspicious.
-/// Notes are received as before.
+/// The same options, but everything reported as a warning, repair, loss or suspicion is thrown as
+/// an error. Notes are received as before.
 ReadOptions strict(ReadOptions options);
 
 }  // namespace clench

@@ -1,5 +1,5 @@
-// What a file has wrong and a reader puts right. What is wrong in one way at many places is told
-// once, at the first.
+// Repairs invalid values in files. Errors of the same kind at many places are reported once, at the
+// first place.
 #pragma once
 #include <string>
 #include <string_view>
@@ -12,31 +12,33 @@ namespace clench {
 
 class Repairs {
  public:
-  /// `about`  what tell() reports of
+  /// about  category of the diagnostics
   explicit Repairs(Diagnostics diagnostics, About about = About::repaired)
       : diagnostics_(std::move(diagnostics)), about_(about) {}
 
-  /// Limits that are the wrong way round are exchanged: "hand.xml:31: joint 2: minValue 30 exceeds
-  /// maxValue -4; they are exchanged".   `names`  of the two
+  /// Exchanges limits that are in the wrong order: "hand.xml:31: joint 2: minValue 30 exceeds
+  /// maxValue -4; they are exchanged".   names  of the two limits
   void order(double& low, double& high, const Place& subject,
              std::pair<const char*, const char*> names = {"min", "max"});
-  /// Of what is never negative: "hand.xml:6: DOF 0: maxEffort: -1.5 is negative; 1.5 is used".
+  /// A value that must not be negative: "hand.xml:6: DOF 0: maxEffort: -1.5 is negative; 1.5 is
+  /// used".
   double magnitude(double value, const Place& subject);
-  /// Of what is never 0: "distal.xml:5: mass: 0 is none; 300 is used, as where it is missing".
+  /// A value that must not be 0: "distal.xml:5: mass: 0 is none; 300 is used, as where it is
+  /// missing".
   double not_zero(double value, double absent, const Place& subject);
-  /// The nearest of low..high: "hand.xml:9: color: rgba: 1.5 is not in 0..1; 1 is used".
+  /// The value clamped to low..high: "hand.xml:9: color: rgba: 1.5 is not in 0..1; 1 is used".
   double within(double value, double low, double high, const Place& subject);
-  /// Of a number of something, 0 when it is none: "hand.xml:304: flockOfBirds: number: expected a
-  /// whole number from 0 on, got 't'; 0 is used".
+  /// A count; 0 if the word is not one: "hand.xml:304: flockOfBirds: number: expected a whole
+  /// number from 0 on, got 't'; 0 is used".
   int count(std::string_view word, const Place& subject);
-  /// `way`: what many places may have wrong alike
+  /// way  kind of error; errors of the same kind are reported together
   void add(const std::string& way, Diagnostic diagnostic);
   template <class... Args>
   void add(const std::string& way, const Place& place, fmt::format_string<Args...> format,
            Args&&... args) {
     add(way, Diagnostic(place, fmt::format(format, std::forward<Args>(args)...)));
   }
-  /// Tells of all so far: of each way the first sentence, and how many more there are.
+  /// Reports all repairs so far: for each kind the first message, and the number of further ones.
   void tell();
 
  private:
@@ -49,7 +51,7 @@ class Repairs {
   std::vector<Kind> kinds_;
 };
 
-/// "finger", when that is taken, becomes "finger_2", or the next that is not.
+/// "finger_2" for "finger", or the first free number from 2 on.
 template <class Names>
 std::string unused_name(const std::string& name, const Names& taken) {
   for (int i = 2;; ++i)

@@ -1,4 +1,5 @@
-// Large texts taken apart word by word, without copies. base/text.h is kinder where lines are few.
+// Splits large texts into words without copies. For small texts base/text.h has more convenient
+// functions.
 #pragma once
 #include <string>
 #include <string_view>
@@ -10,20 +11,21 @@ namespace clench {
 
 class WordReader {
  public:
-  /// `file` is the name shown in errors; `text` has plain line ends and must outlive the reader.
-  /// A '#' ends a line.   `joins_lines`: a '\' at the end of a line goes on in the next
+  /// `file` is the name shown in errors; `text` has plain line ends and must outlive the reader. A
+  /// '#' starts a comment up to the line end.   `joins_lines`: a '\' at the end of a line continues
+  /// it on the next
   WordReader(std::string file, std::string_view text, bool joins_lines = false)
       : file_(std::move(file)), text_(text), joins_lines_(joins_lines) {}
 
-  /// To the next line that holds a word.   returns  false at the end of the text
+  /// Moves to the next line that contains a word.   returns  false at the end of the text
   bool next_line();
-  /// The next word of the line, or "".
+  /// The next word of the line; "" at its end.
   std::string_view word();
-  /// The rest of the line as it stands, '#' and all, without blanks at its ends.
+  /// The rest of the line unchanged, including '#', with blanks trimmed.
   std::string_view rest();
-  /// How many words of the line are left; stays there.
+  /// Number of words left on the line; does not move.
   int words_left() const;
-  /// The next word, over as many lines as need be; "" at the end of the text.
+  /// The next word on this or a later line; "" at the end of the text.
   std::string_view word_anywhere();
 
   int line() const { return line_; }  ///< from 1
@@ -44,10 +46,10 @@ class WordReader {
   std::string file_;
   std::string_view text_;
   bool joins_lines_;
-  size_t at_ = 0, end_ = 0;  // what is left of the line
-  size_t next_ = 0;          // where the line after it begins
+  size_t at_ = 0, end_ = 0;  // rest of the line
+  size_t next_ = 0;          // start of the next line
   int line_ = 0;
-  StopCheck check_{1 << 12};  // of words and lines
+  StopCheck check_{1 << 12};  // per word and line
 };
 
 }  // namespace clench

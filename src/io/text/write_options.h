@@ -1,4 +1,4 @@
-// What a call that writes files is told.
+// Options for writing files.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -9,19 +9,19 @@
 namespace clench {
 
 struct WriteOptions {
-  /// names of files below it are written from there on; others from the file's own folder on where
-  /// they lie below that, else absolute
+  /// names of files below this folder are written relative to it; names of other files relative to
+  /// the written file's folder if they lie below that, otherwise absolute
   std::filesystem::path root = {};
-  /// files that are read again are those below this folder, as in ReadOptions
+  /// only files below this folder are read again for comparison, as in ReadOptions
   std::filesystem::path confine = {};
-  /// receives what is not as the file would have it
+  /// receives properties that the format cannot represent
   Diagnostics diagnostics = {};
-  /// sees the whole file under another name in its folder, before it takes the place of an older
-  /// one; what it throws keeps that one
+  /// called with the complete file under a temporary name in its folder, before it replaces an
+  /// older file; if it throws, the older file is kept
   std::function<void(const std::filesystem::path&)> check = {};
-  /// of a list of grasps as such: a JSON object; empty: none
+  /// notes on a list of grasps: a JSON object; empty: none
   std::string notes = {};
-  bool compress = false;  ///< of arrays in .npz; of other formats an error
+  bool compress = false;  ///< compresses arrays in .npz; an error for other formats
 };
 
 }  // namespace clench

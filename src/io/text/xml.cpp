@@ -15,18 +15,17 @@ namespace clench {
 
 namespace {
 
-// --- the text, before or instead of being parsed ---
+// --- checks of the text before it is parsed, and partial parsing ---
 
-constexpr int deepest_nesting = 64;   // the parser calls itself for each
-constexpr int max_attributes = 1000;  // the parser compares each with all
+constexpr int deepest_nesting = 64;   // the parser is recursive
+constexpr int max_attributes = 1000;  // the parser compares all pairs
 
 /// from 1
 int line_at(std::string_view text, size_t at) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + at, '\n'));
 }
 
-/// Past the end of what begins at `at` and is no element's tag: comment, CDATA, declaration; else
-/// 0.
+/// End of the comment, CDATA section or declaration that begins at `at`; 0 if none does.
 size_t skip_other(std::string_view text, size_t at) {
   constexpr std::pair<std::string_view, std::string_view> others[] = {
       {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}, {"<!", ">"}};
@@ -64,8 +63,9 @@ Tag scan_tag(std::string_view text, size_t at) {
   return tag;
 }
 
-/// Where '&' stands alone, which the parser garbles behind an entity. Those that a file declares
-/// itself it leaves as they stand: "&name;" would be a text.
+/// Finds each '&' that does not begin an entity: after an entity, the parser would corrupt it.
+/// throws Error for entities that the file declares, because the parser would leave "&name;" as
+/// text
 void check_entities(const std::string& file, std::string_view text, size_t from, size_t end,
                     std::vector<size_t>& alone) {
   constexpr std::string_view read[] = {"amp", "lt", "gt", "quot", "apos"};
@@ -85,8 +85,9 @@ void check_entities(const std::string& file, std::string_view text, size_t from,
   }
 }
 
-/// Refuses what would make the parser recurse without end or take the square of the file's length.
-/// returns  where '&' stands alone
+/// Rejects texts for which the parser would recurse too deeply or take time quadratic in their
+/// length.
+/// returns  positions of each '&' that does not begin an entity
 std::vector<size_t> check_limits(const std::string& file, std::string_view text, size_t max_bytes) {
   if (text.size() > max_bytes)
     fail("{}: expected at most {} MB of XML, got {}", file, max_bytes >> 20, text.size() >> 20);
@@ -94,7 +95,7 @@ std::vector<size_t> check_limits(const std::string& file, std::string_view text,
     fail("{}:{}: expected text, got a zero byte", file, line_at(text, zero));
   std::vector<size_t> alone;
   int depth = 0;
-  size_t at = 0, behind = 0;  // the last tag
+  size_t at = 0, behind = 0;  // end of the last tag
   StopCheck check(1 << 10);
   while ((at = text.find('<', at)) != std::string_view::npos) {
     check();
@@ -125,7 +126,7 @@ std::vector<size_t> check_limits(const std::string& file, std::string_view text,
   return alone;
 }
 
-/// The element that the parser names, "<mass>", or what stands for one that has no name.
+/// The element named in the parser's message, "<mass>"; "a tag" if the message has no name.
 std::string broken_element(const tinyxml2::XMLDocument& document) {
   constexpr std::string_view before = "XMLElement name=";
   const std::string_view told = document.ErrorStr();
@@ -168,7 +169,7 @@ bool contains(const std::vector<std::string>& list, std::string_view name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-/// Text that stands directly in an element.
+/// Text directly inside an element.
 std::string own_text(const tinyxml2::XMLElement& element) {
   std::string out;
   for (const tinyxml2::XMLNode* n = element.FirstChild(); n; n = n->NextSibling())

@@ -1,5 +1,5 @@
-// XML files taken apart: elements, what stands in them, and numbers that are numbers. Whatever is
-// wrong is told with the place "file:line", what was expected and what was got.
+// Reads XML files: elements, their contents, and validated numbers. Every error gives the place
+// "file:line", the expected and the actual contents.
 #pragma once
 #include <Eigen/Core>
 #include <filesystem>
@@ -23,49 +23,49 @@ class XMLElement;
 
 namespace clench {
 
-/// What a reader understands of an element; the rest is warned of.
+/// Contents of an element that a reader uses; others are reported as warnings.
 struct XmlKnown {
-  std::vector<std::string> once = {};  ///< children of which the first counts
-  std::vector<std::string> many = {};  ///< children of which all count
+  std::vector<std::string> once = {};  ///< children of which only the first is used
+  std::vector<std::string> many = {};  ///< children of which all are used
   std::vector<std::string> attributes = {};
 };
 
-/// An element and where it stands; it belongs to the XmlFile that gave it. May be none.
+/// An element with its place; owned by the XmlFile that returned it. May be null.
 class XmlElement {
  public:
   XmlElement() = default;
   XmlElement(const tinyxml2::XMLElement* element, const std::string* file)
       : element_(element), file_(file) {}
 
-  /// Name of the file that it stands in. Its address identifies the XmlFile.
+  /// Name of the file that contains it. Its address identifies the XmlFile.
   const std::string* file() const { return file_; }
 
   explicit operator bool() const { return element_; }
   std::string_view name() const;
-  int line() const;     ///< from 1; of a copy, that of its original
+  int line() const;     ///< from 1; for a copy, the line of its original
   Place place() const;  ///< Barrett.xml:31
-  /// its text as a line at its place, for the readers of text formats
+  /// its text as a line with its place, for the readers of text formats
   Line as_line(std::string_view text) const { return Line(file_, line(), text); }
 
-  /// The first child of that name, or none.
+  /// The first child of that name, or a null element.
   XmlElement child(std::string_view name) const;
   /// throws Error  "Barrett.xml:3: robot: expected an element <palm>, got none"
   XmlElement expected(std::string_view name) const;
-  /// All children in their order, or those of one name.
+  /// All children in order, or those of one name.
   std::vector<XmlElement> children(std::string_view name = {}) const;
 
-  /// What stands between its tags, without comments and blanks at the ends.
-  /// throws Error when elements stand in it
+  /// The text between its tags, without comments and surrounding blanks.
+  /// throws Error if it contains elements
   std::string text() const;
-  /// throws Error  "Barrett.xml:31: Kp: expected a number, got 'x'", as the next ones do
+  /// throws Error  "Barrett.xml:31: Kp: expected a number, got 'x'", as do the following functions
   double number() const;
   int integer(int low = std::numeric_limits<int>::min(),
-              int high = std::numeric_limits<int>::max()) const;  ///< 1.0 is one, too
+              int high = std::numeric_limits<int>::max()) const;  ///< accepts 1.0, too
   std::vector<double> numbers() const;
   std::vector<double> numbers(int count) const;
   Eigen::Vector3d vector() const;  ///< three numbers
 
-  /// The text that stands in it beside its elements; empty when there is none.
+  /// The text inside it that is outside of its child elements; empty if there is none.
   std::string loose_text() const;
 
   std::optional<std::string> attribute(std::string_view name) const;
@@ -76,7 +76,7 @@ class XmlElement {
   int integer_attribute(std::string_view name, int low = std::numeric_limits<int>::min(),
                         int high = std::numeric_limits<int>::max()) const;
 
-  /// Warns of children, attributes and text that are not known, and of children that stand twice.
+  /// Warns of unknown children, attributes and text, and of children that appear twice.
   void check(const XmlKnown& known, const Diagnostics& diagnostics) const;
 
   template <class... Args>
@@ -90,8 +90,8 @@ class XmlElement {
   const std::string* file_ = nullptr;
 };
 
-/// Elements generated from others: they have attributes of their own, no children, and the place of
-/// their originals. They live as long as this.
+/// Elements generated from others: they have separate attributes, no children, and the place of
+/// their originals. Their lifetime is that of this object.
 class XmlCopies {
  public:
   using Attributes = std::vector<std::pair<std::string, std::string>>;
@@ -107,13 +107,13 @@ class XmlCopies {
   std::unique_ptr<tinyxml2::XMLDocument> document_;
 };
 
-/// A whole file in memory.
+/// A complete file in memory.
 class XmlFile {
  public:
-  /// throws Error when it cannot be read, is no well-formed XML, or is beyond what any model needs:
-  /// 16 MB, 64 elements in each other, 1000 attributes of one element
+  /// throws Error if it cannot be read, is not well-formed XML, or exceeds these limits:
+  /// 16 MB, nesting depth 64, 1000 attributes of one element
   explicit XmlFile(const std::filesystem::path& path);
-  /// `file` is the name shown in errors; `max_bytes`: what to allow instead of 16 MB
+  /// `file` is the name shown in errors; `max_bytes`: limit instead of 16 MB
   XmlFile(std::string file, const std::string& text, size_t max_bytes = size_t{16} << 20);
   ~XmlFile();
   XmlFile(const XmlFile&) = delete;
@@ -127,11 +127,11 @@ class XmlFile {
   std::unique_ptr<tinyxml2::XMLDocument> document_;
 };
 
-/// Name of the outermost element of a text that may be XML; empty when there is none. Reads no
-/// further.
+/// Name of the root element of a text that may be XML; empty if there is none. Parses only up to
+/// that element.
 std::string_view xml_root_name(std::string_view text);
 
-/// A text as XML writes it: & < > and quotes by their names.
+/// A text with & < > and quotes replaced by XML entities.
 std::string xml_escaped(std::string_view text);
 
 }  // namespace clench

@@ -13,8 +13,8 @@
 
 namespace clench {
 
-// of a text between two values: yaml-cpp keeps all tokens of a list in brackets that may be a key,
-// some 130 times the text
+// of a text between two values: yaml-cpp stores all tokens of a list in brackets that may be a key,
+// about 130 times the size of the text
 static constexpr size_t max_silence = size_t{512} << 10;
 
 namespace {
@@ -143,7 +143,7 @@ ValueTree parse_yaml(const std::string& file, std::string_view text) {
   ValueTree out(file);
   const auto fault = read_json_tree(text, out);
   if (!fault) return out;
-  // lists and maps in brackets are YAML, too
+  // lists and maps in brackets may be YAML instead
   if (text.size() > max_silence) fail("{}:{}: {}", file, fault->line, fault->sentence);
   return parse_yaml_text(file, text);
 }

@@ -1,5 +1,5 @@
-// YAML and JSON as a tree of values that know their lines. Anchors and several documents are
-// refused.
+// Parses YAML and JSON into a tree of values with their lines. Anchors and multiple documents are
+// rejected.
 #pragma once
 #include <string>
 #include <string_view>
@@ -8,14 +8,15 @@
 
 namespace clench {
 
-/// A text that begins with a bracket is read as JSON if it is, in little more memory than its tree takes;
-/// everything else as YAML, whose values and lists in brackets have at most 512 kB.
+/// A text that begins with a bracket and is valid JSON is read as JSON, which takes little more
+/// memory than its tree; all other texts are read as YAML, whose values and lists in brackets are
+/// limited to 512 kB.
 /// file  the name shown in errors
-/// text  white space at its end does not count
+/// text  trailing white space is ignored
 /// throws Error  "g.yaml:3: end of sequence flow not found", in the words of yaml-cpp
 ValueTree parse_yaml(const std::string& file, std::string_view text);
 
-/// A text in double quotes, as YAML and JSON read it.
+/// A text in double quotes, as read by YAML and JSON.
 std::string yaml_quoted(std::string_view text);
 
 }  // namespace clench

@@ -9,10 +9,10 @@
 
 namespace clench {
 
-// paces of closing, where a file says none
+// closing speeds if the file gives none
 static constexpr double turning = 1;     // [rad/s]
 static constexpr double sliding = 0.05;  // [m/s]
-static constexpr double outer = 0.5;     // of these, behind another closing joint
+static constexpr double outer = 0.5;     // factor for joints distal to another closing joint
 
 void set_closing(RobotSpec& robot, int dof, double sense) {
   double& velocity = robot.dofs[dof].default_velocity;
@@ -24,10 +24,11 @@ void set_closing(RobotSpec& robot, int dof, double sense) {
 
 void slow_distal_joints(RobotSpec& robot) {
   constexpr int none = -1, several = -2;
-  // what closes on the way to a link, its own joints included: no DOF, one, or several; parents
-  // come before their children
+  // DOFs that close on the path to a link, including its own joints: none, one, or several; parents
+  // precede their children
   std::vector<int> before(robot.links.size(), none);
-  std::vector<bool> first(robot.dofs.size());  // has the DOF a joint behind no other?
+  // true if the DOF has a joint that is not distal to another DOF
+  std::vector<bool> first(robot.dofs.size());
   for (size_t l = 0; l < robot.links.size(); ++l) {
     const LinkSpec& link = robot.links[l];
     int& way = before[l];

@@ -9,13 +9,13 @@
 
 namespace clench {
 
-// a round shape takes some 60 bytes of a file, and a triangle some 150 of memory
+// a round shape takes about 60 bytes of a file, and a triangle about 150 of memory
 static constexpr size_t max_round_triangles = 500'000;
 static constexpr size_t max_image_bytes = size_t{1} << 30;
 
 TreeGeometry::TreeGeometry(const ReadOptions& options, BarePoints bare_points)
     : options_(options), bare_points_(bare_points) {
-  // robot files of today count in meters, and place a mesh with its axes as they stand
+  // robot files use meters, and place meshes without turning their axes
   options_.silent_mesh_unit = 1;
   options_.turn_mesh_up = false;
 }
@@ -24,7 +24,7 @@ std::shared_ptr<const Geometry> TreeGeometry::file(const std::filesystem::path& 
   auto& found = geometries_["file " + path.string()];
   if (found) return found;
   ReadOptions options = options_;
-  // VRML of robots of today counts in meters, too
+  // VRML files of robots use meters, too
   if (is_inventor(path) && !options.mesh_scale) options.mesh_scale = 1;
   const bool points = bare_points_ == BarePoints::hull && !is_inventor(path);
   return found = std::make_shared<const Geometry>(
@@ -141,7 +141,7 @@ static Appearance looks_of(const std::vector<GeometryPiece>& pieces,
   for (const GeometryPiece& piece : pieces) {
     const Appearance& looks = piece.geometry->appearance;
     out.given = out.given || piece.color || looks.given;
-    // one transparency a body: the least, so that nothing solid vanishes
+    // a body has one transparency: the smallest, so that no opaque piece vanishes
     const float t = piece.color ? piece.color->transparency : looks.transparency;
     out.transparency = &piece == &pieces.front() ? t : std::min(out.transparency, t);
   }
@@ -152,7 +152,7 @@ static Appearance looks_of(const std::vector<GeometryPiece>& pieces,
   return out;
 }
 
-// All pairs of round pieces of two bodies are compared; bodies with more pieces touch as triangles.
+// All pairs of round pieces of two bodies are tested; bodies with more pieces collide as triangles.
 static constexpr size_t max_round_pieces = 64;
 
 static RoundPieces rounds_of(const std::vector<GeometryPiece>& pieces) {

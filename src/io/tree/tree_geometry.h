@@ -1,4 +1,5 @@
-// Geometry of a link of a robot tree: pieces, each a primitive or a mesh file, made one shape.
+// Geometry of a link of a robot tree: pieces, each a primitive or a mesh file, merged into one
+// shape.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -22,41 +23,42 @@ struct PieceColor {
 
 /// A part of a link's surface.
 struct GeometryPiece {
-  std::shared_ptr<const Geometry> geometry;  ///< as its file or its formula gives it
+  std::shared_ptr<const Geometry> geometry;  ///< as given by its file or formula
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
-  Pose X_LG;                            ///< in the link, after scaling
-  std::optional<PieceColor> color;      ///< over that of the file
-  SkinPtr skin = {};                    ///< over that of the file, even where there is a color
-  std::optional<MassProperties> solid;  ///< of a round shape, which its mesh only comes near
-  std::optional<Round> round = {};      ///< the solid that a round shape touches as
+  Pose X_LG;                        ///< in the link, after scaling
+  std::optional<PieceColor> color;  ///< replaces that of the file
+  SkinPtr skin = {};                ///< replaces that of the file, even if there is a color
+  /// exact, for round shapes, which their meshes only approximate
+  std::optional<MassProperties> solid;
+  std::optional<Round> round = {};  ///< exact solid for contacts of round shapes
 };
 
-/// Mass properties of what a piece shows, without its scale.
+/// Mass properties of a piece, without its scale.
 MassProperties solid_of(const GeometryPiece& piece);
 
-/// Meshes already read and shapes already made for one robot: five fingers share theirs.
+/// Meshes read and shapes built for one robot: equal parts of fingers share them.
 class TreeGeometry {
  public:
   explicit TreeGeometry(const ReadOptions& options, BarePoints bare_points = BarePoints::refused);
 
-  /// A mesh file in meters.   throws what read_mesh_file throws
+  /// A mesh file in meters.   throws as read_mesh_file
   std::shared_ptr<const Geometry> file(const std::filesystem::path& path);
-  /// A mesh made by a formula, kept under its name.
+  /// A generated mesh, stored by name.
   std::shared_ptr<const Geometry> made(const std::string& name, Mesh mesh);
-  /// A box of three edges, an ellipsoid of three radii, a sphere of its radius, or a capsule or
-  /// cylinder about z of radius and length [m].
+  /// A box given by three edges, an ellipsoid by three radii, a sphere by its radius, or a capsule
+  /// or cylinder about z by radius and length [m].
   GeometryPiece primitive(const std::string& kind, const std::vector<double>& sizes);
 
   struct Body {
     ShapePtr shape;  ///< null: no pieces
     Appearance appearance;
-    std::optional<MeshReport> report;  ///< when it is one file's mesh
+    std::optional<MeshReport> report;  ///< if it is a single file's mesh
   };
   /// `subject` names the link in errors
   Body merge(const std::vector<GeometryPiece>& pieces, const Place& subject);
 
  private:
-  /// Textures of all pieces, in their order; null: none, or more than a robot may have.
+  /// Textures of all pieces in order; null: none, or more than a robot may have.
   SkinPtr skin_of_all(const std::vector<GeometryPiece>& pieces, const Place& subject);
 
   ReadOptions options_;

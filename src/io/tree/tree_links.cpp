@@ -42,13 +42,13 @@ void InertialFaults::tell(const FileCache& cache) const {
                              some_names(links_[2]));
 }
 
-/// False for an open surface, which has none.   `pieces`  of the shape
+/// False for an open surface, which has no volume.   `pieces`  of the shape
 static bool guess_mass(BodySpec& body, const ShapePtr& shape,
                        const std::vector<GeometryPiece>& pieces) {
   body.mass = frame_mass;
   if (!shape || !shape->closed()) return !shape;
   double volume = std::abs(shape->solid().volume);
-  // round shapes fill more than their meshes
+  // round shapes have larger volumes than their meshes
   for (const GeometryPiece& piece : pieces)
     if (piece.solid) volume += piece.solid->volume - solid_mass(piece.geometry->mesh).volume;
   if (!(volume > 0 && std::isfinite(water * volume))) return false;
@@ -56,7 +56,7 @@ static bool guess_mass(BodySpec& body, const ShapePtr& shape,
   return true;
 }
 
-/// A file may name one surface for both, colored once.
+/// A file may use one surface for both purposes, with colors in one of them.
 static bool same_surface(const ShapePtr& a, const ShapePtr& b) {
   return a == b || (a && b && a->hash() == b->hash());
 }
@@ -80,13 +80,13 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
     body.appearance = visual.shape ? visual.appearance : collision.appearance;
     if (!same_surface(visual.shape, collision.shape)) body.appearance.visual = visual.shape;
     body.material = "plastic";
-    body.assumptions_told = body.inertia_told = true;  // below
+    body.assumptions_told = body.inertia_told = true;  // reported below
     if (visual.shape && !collision.shape) ghosts.push_back(body.name);
     if (pieces[i].has_inertial) {
       body.mass_from = Origin::file;
       continue;
     }
-    const bool seen = !body.shape;  // its pieces for pictures alone
+    const bool seen = !body.shape;  // it has only visual pieces
     const ShapePtr& shape = seen ? visual.shape : body.shape;
     const bool has_volume =
         guess_mass(body, shape, seen || !any ? pieces[i].visual : pieces[i].collision);

@@ -22,7 +22,7 @@ void resolve_leaders(TreeModel& tree) {
     int steps = 0;
     while (joint.leader >= 0 && tree.joints[joint.leader].leader >= 0) {
       const TreeJoint& before = tree.joints[joint.leader];
-      // a row of leaders that is longer than there are joints runs in a circle
+      // a sequence of leaders longer than the number of joints is a cycle
       if (++steps > count)
         fail("{}: joint '{}' follows itself by way of '{}'", joint.place, excerpt(joint.name),
              excerpt(first));
@@ -33,15 +33,15 @@ void resolve_leaders(TreeModel& tree) {
   }
 }
 
-/// Numbers of a link's forebears from the root on, and its own.
+/// Indices of the links from the root to this link.
 static std::vector<int> path_to(const TreeModel& tree, int link) {
   std::vector<int> way;
   for (; link >= 0; link = tree.links[link].parent) way.push_back(link);
   return {way.rbegin(), way.rend()};
 }
 
-/// The order of links, depth first, with the branch that leads to `first` before that to `second`.
-/// Empty when one lies behind the other.
+/// The depth-first order of links in which the branch that contains `first` precedes that of
+/// `second`. Empty if one is distal to the other.
 static std::vector<int> swapped(const TreeModel& tree, int first, int second) {
   const auto a = path_to(tree, first), b = path_to(tree, second);
   const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());

@@ -38,8 +38,8 @@ class RobotMaker {
   const FileCache& cache_;
   const std::function<bool(RobotSpec&)>& known_;
   RobotSpec robot_;
-  std::vector<int> dof_of_;    // one per joint: of the leader; -1 for followers
-  std::vector<bool> passive_;  // one per DOF: no motor closes it
+  std::vector<int> dof_of_;    // DOF per joint, for leaders; -1 for followers
+  std::vector<bool> passive_;  // one per DOF: true if no motor closes it
 };
 
 void RobotMaker::number_dofs() {
@@ -56,7 +56,7 @@ std::string limits_text(double low, double high) {
 }
 
 void RobotMaker::widen_followers() {
-  std::map<int, std::pair<double, double>> ranges;  // by leader: what its followers leave
+  std::map<int, std::pair<double, double>> ranges;  // by leader: range left by its followers
   for (TreeJoint& joint : tree_.joints) {
     if (joint.leader < 0 || joint.ratio == 0) continue;
     const TreeJoint& leader = tree_.joints[joint.leader];
@@ -68,7 +68,7 @@ void RobotMaker::widen_followers() {
       continue;
     }
     const double left = std::min(high, joint.max) - std::max(low, joint.min);
-    // what its limits leave of the leader's range, counted as dof_range does
+    // part of the leader's range left by these limits, computed as in dof_range
     const double c = (joint.min - joint.offset) / joint.ratio,
                  d = (joint.max - joint.offset) / joint.ratio;
     auto& range = ranges.try_emplace(joint.leader, leader.min, leader.max).first->second;
@@ -89,7 +89,7 @@ void RobotMaker::widen_followers() {
                             "common with those of others that follow it; they are not used",
                             joint.place, excerpt(joint.name), excerpt(leader.name),
                             limits_text(joint.min, joint.max)));
-    // a leader that stands still must not be moved by rounding
+    // rounding must not move a leader whose range is a point
     const double slack = high - low < 1e-9 ? 1e-9 * std::max(1.0, std::abs(low)) : 0;
     joint.min = low - slack;
     joint.max = high + slack;
@@ -104,7 +104,7 @@ JointSpec RobotMaker::joint_spec(const TreeJoint& joint, const Pose& before) con
   spec.dof = dof_of_[leader];
   spec.X_PJ = before;
   if (!joint.anchor.isZero(0)) spec.X_PJ = spec.X_PJ * Pose::translation(joint.anchor);
-  // what is constant of q goes into the frame, and is no part of the limits
+  // the constant part of q goes into the frame, and is subtracted from the limits
   if (joint.offset != joint.zero)
     spec.X_PJ = spec.X_PJ * joint_motion(spec, joint.offset - joint.zero);
   for (double* q : {&spec.min, &spec.max, &spec.rest}) *q -= joint.offset;
@@ -119,7 +119,7 @@ void RobotMaker::add_link(const TreeLink& from) {
   Pose at = from.X_PL;
   for (const int j : from.joints) {
     const TreeJoint& joint = tree_.joints[j];
-    if (joint.leader >= 0 && joint.ratio == 0) {  // a follower that does not follow
+    if (joint.leader >= 0 && joint.ratio == 0) {  // a follower with ratio 0 is fixed
       at = at * joint_pose(joint, joint.offset);
       continue;
     }
@@ -155,8 +155,8 @@ void RobotMaker::tell_approach() {
       z.x() + 0.0, z.y() + 0.0, z.z() + 0.0, p.x() + 0.0, p.y() + 0.0, p.z() + 0.0);
 }
 
-/// By the laws of its actuators: which DOFs they drive, and with which efforts at most. Of a file
-/// without any, all joints may be meant to close.
+/// Determines from the actuators which DOFs they drive, and their maximum efforts. If the file has
+/// no actuators, any joint may close.
 void RobotMaker::settle_motors() {
   passive_.assign(robot_.dofs.size(), false);
   if (!tree_.has_actuators) return;

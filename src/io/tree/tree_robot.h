@@ -1,5 +1,5 @@
-// A robot as files of today describe it becomes ours: followers count by their leaders' DOFs, the
-// links of a chain stand side by side. Each link keeps its name and its pose for all joint values.
+// Converts a TreeModel into a RobotSpec: followers are expressed by the DOFs of their leaders, and
+// the links of a chain are contiguous. Each link keeps its name and its pose for all joint values.
 #pragma once
 #include <functional>
 
@@ -8,15 +8,16 @@
 
 namespace clench {
 
-/// A follower's limits that leave its leader less than this part of its range are taken for a slip.
+/// If a follower's limits leave its leader less than this fraction of its range, they are treated
+/// as a mistake.
 constexpr double min_follower_range = 0.1;
 
-/// Guesses what closes the hand and how it approaches, as far as the options do not say it, and
-/// tells. `file` is the name shown in sentences.
-/// throws  Error naming the joint, the DOF or the option that is wrong
-/// known  gives it what its file says of it beyond its tree; true: also how it closes, of which
-///        nothing is guessed then. Nor is its
-/// approach where that is known
+/// Guesses the closing directions and the approach frame that the options leave open, and reports
+/// them. `file` is the name shown in messages.
+/// throws  Error with the invalid joint, DOF or option
+/// known  adds properties in the file that the tree does not contain; returns true if they include
+///        closing directions, which are then not guessed. An approach frame that it sets is not
+///        guessed either
 RobotSpec make_robot(TreeModel tree, const std::string& file, const FileCache& cache,
                      const std::function<bool(RobotSpec&)>& known = {});
 

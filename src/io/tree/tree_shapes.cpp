@@ -22,7 +22,7 @@ struct LatheRing {
   double radius = 0, z = 0;
 };
 
-/// The surface that rings from the lowest to the highest bound, with a point at each end.
+/// The surface of rings from the lower to the upper bound, with a point at each end.
 Mesh turned(const std::vector<LatheRing>& rings, double lowest, double highest) {
   Mesh mesh;
   const int n = circle_edges, count = static_cast<int>(rings.size());
@@ -63,7 +63,7 @@ Mesh capsule_mesh(double radius, double length) {
     rings.push_back({radius * std::sin(angle), -length / 2 - radius * std::cos(angle)});
   }
   rings.back() = {radius, -length / 2};
-  // the upper half mirrors the lower one; a ball has its equator once
+  // the upper half mirrors the lower one; a ball has only one equator
   for (int k = quarter - (length > 0 ? 0 : 1); k >= 1; --k)
     rings.push_back({rings[k - 1].radius, -rings[k - 1].z});
   return turned(rings, -length / 2 - radius, length / 2 + radius);
@@ -91,7 +91,7 @@ MassProperties capsule_solid(double radius, double length) {
   const MassProperties middle = cylinder_solid(radius, length);
   const double r2 = radius * radius, ball = 4.0 / 3 * std::numbers::pi * r2 * radius;
   const double volume = middle.volume + ball, part = ball / volume;
-  // half balls, their centers of mass 3/8 r beyond the ends
+  // hemispheres, whose centers of mass are 3/8 r beyond the ends
   const double along = 0.4 * r2, across = along + length * length / 4 + 3.0 / 8 * length * radius;
   const Eigen::Vector3d ends(across, across, along);
   return solid(volume, (1 - part) * middle.inertia.diagonal() + part * ends);
@@ -104,7 +104,7 @@ MassProperties ellipsoid_solid(const Eigen::Vector3d& radii) {
 }
 
 MassProperties box_shell(const Eigen::Vector3d& size) {
-  // pairs of faces, by the axis across them
+  // pairs of faces, by the axis between them
   const Eigen::Vector3d areas(size.y() * size.z(), size.z() * size.x(), size.x() * size.y());
   const double area = 2 * areas.sum();
   const Eigen::Vector3d squares = size.cwiseAbs2();
@@ -129,7 +129,7 @@ MassProperties capsule_shell(double radius, double length) {
                ball = 4 * std::numbers::pi * radius * radius, area = side + ball;
   const double r2 = radius * radius, l2 = length * length;
   const Eigen::Vector3d of_side(r2 / 2 + l2 / 12, r2 / 2 + l2 / 12, r2);
-  // half spheres, their centers of mass half a radius beyond the ends
+  // hemispherical shells, whose centers of mass are half a radius beyond the ends
   const double across = 2.0 / 3 * r2 + l2 / 4 + length * radius / 2;
   const Eigen::Vector3d of_ball(across, across, 2.0 / 3 * r2);
   return solid(area, (side * of_side + ball * of_ball) / area);
@@ -140,7 +140,7 @@ MassProperties ellipsoid_shell(const Eigen::Vector3d& radii) {
   const double a = radii.x(), b = radii.y(), c = radii.z();
   const double mean = (std::pow(a * b, p) + std::pow(b * c, p) + std::pow(c * a, p)) / 3;
   const double area = 4 * std::numbers::pi * std::pow(mean, 1 / p);
-  // the derivative of the solid's moments as all radii grow alike
+  // the derivative of the solid's moments when all radii grow equally
   const Eigen::Vector3d squares = radii.cwiseAbs2();
   const double share = 2 * a * b * c / (a * b + b * c + c * a);
   const Eigen::Vector3d moments = (Eigen::Vector3d::Constant(squares.sum()) - squares +

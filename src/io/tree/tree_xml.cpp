@@ -9,7 +9,7 @@
 
 namespace clench {
 
-// lengths and angles whose squares and products overflow are none
+// limit of lengths and angles; squares and products of larger ones would overflow
 static constexpr double largest_attribute = 1e15;
 
 XmlValues::XmlValues(XmlElement own, const std::vector<XmlElement>& behind) : layers_{own} {
@@ -141,10 +141,10 @@ void XmlValues::tell_unused(UnusedXml& unused, std::initializer_list<std::string
   for (const XmlElement& layer : layers_) unused.attributes(layer, used);
 }
 
-// --- what is not used ---
+// --- unused contents ---
 
 UnusedXml::Kind& UnusedXml::kind_of(std::vector<Kind>& kinds, const XmlElement& element) {
-  // what is more is told together, without names
+  // further names are counted together
   constexpr size_t max_named = 100;
   for (Kind& kind : kinds)
     if (kind.name == element.name()) return kind;
@@ -168,7 +168,7 @@ void UnusedXml::attributes(const XmlElement& element,
 }
 
 std::vector<Diagnostic> UnusedXml::diagnostics() const {
-  // names of a hostile file are cut: the sentence stays one
+  // long names in a hostile file are shortened
   const auto shown = [](const std::string& name) { return excerpt(name); };
   const auto element = [&](const Kind& kind) {
     return kind.name.empty() ? "elements of other names" : '<' + shown(kind.name) + '>';

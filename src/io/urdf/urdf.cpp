@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A joint as the file has it, before the tree is known.
+/// A joint as in the file, before the tree is known.
 struct FileJoint {
   XmlElement element;
   std::string name, type;
@@ -75,12 +75,12 @@ class UrdfReader {
   size_t piece_count_ = 0;
   TreeModel tree_;
   std::map<std::string, int> joint_numbers_;  // in the tree
-  int undrawn_ = 0;                           // meshes for display that are missing
+  int undrawn_ = 0;                           // visual meshes that are missing
   Diagnostic first_undrawn_;
 };
 
 void UrdfReader::refuse_xacro(const XmlElement& element) const {
-  // an expanded file has neither elements of xacro nor its expressions
+  // an expanded file contains neither elements of xacro nor its expressions
   bool raw = element.name().starts_with("xacro:");
   for (const auto& name : element.attributes())
     raw = raw || element.attribute(name)->find("${") != std::string::npos ||
@@ -129,14 +129,14 @@ void UrdfReader::read_materials() {
 }
 
 void UrdfReader::read_inertial(const XmlElement& element, BodySpec& body, LinkPieces& pieces) {
-  // a robot with a broken inertia can still be grasped with
+  // a robot with an invalid inertia can still be used for grasps
   try {
     const XmlElement mass = element.expected("mass"), inertia = element.child("inertia");
     Eigen::Matrix3d I = Eigen::Matrix3d::Zero();
     if (inertia) {
       const XmlValues v(inertia);
       const double xy = v.number("ixy", 0), xz = v.number("ixz", 0), yz = v.number("iyz", 0);
-      // all numbers first: what throws must not leave the matrix half filled
+      // read all numbers first: an error must not leave the matrix incomplete
       const double xx = v.number("ixx"), yy = v.number("iyy"), zz = v.number("izz");
       I << xx, xy, xz, xy, yy, yz, xz, yz, zz;
     }
@@ -178,7 +178,7 @@ std::optional<GeometryPiece> UrdfReader::read_geometry_of(const XmlElement& shap
   try {
     piece.geometry = geometry_.file(find_robot_file(name, path_, cache_.options()));
   } catch (const Error& error) {
-    // what is only looked at may be missing
+    // visual geometry may be missing
     if (!visual) shape.fail("mesh: {}", error.what());
     if (undrawn_++ == 0) first_undrawn_ = {shape.place().of("mesh"), error.what()};
     return {};
@@ -294,12 +294,12 @@ void UrdfReader::read_joint_names(const XmlElement& element) {
   joints_.push_back(std::move(joint));
 }
 
-/// Fixed, floating and planar joints, and those that mimic one of them.
+/// Finds fixed, floating and planar joints, and joints that mimic one of them.
 void UrdfReader::find_still_joints() {
   for (const FileJoint& joint : joints_)
     if (joint.type == "fixed" || joint.type == "floating" || joint.type == "planar")
       still_[joint.name] = 0;
-  // followers of followers are found round by round
+  // repeated until no more followers of followers are found
   for (bool found = true; found;) {
     found = false;
     for (const FileJoint& joint : joints_) {
@@ -322,7 +322,7 @@ void UrdfReader::find_still_joints() {
   }
 }
 
-/// Where the joint's link stands in its parent; for one that moves, before it does.
+/// Pose of the joint's link in its parent; for moving joints, at position 0.
 Pose UrdfReader::read_joint_origin(const FileJoint& from) {
   const Pose origin = read_origin(from.element);
   const auto still = still_.find(from.name);
@@ -333,7 +333,7 @@ Pose UrdfReader::read_joint_origin(const FileJoint& from) {
   return origin * joint_pose(joint, still->second);
 }
 
-/// Links from the root on, each after its parent, branches in the file's order.
+/// Orders links from the root, each after its parent, branches in the file's order.
 void UrdfReader::order_links() {
   if (links_.empty()) xml_.root().fail("robot: expected links, got none");
   std::vector<int> roots;
@@ -360,7 +360,7 @@ void UrdfReader::order_links() {
     link.parent = step.parent;
     if (step.joint) {
       link.X_PL = read_joint_origin(*step.joint);
-      // joints keep the file's order: its numbers stand for the places
+      // joints keep the file's order; their numbers refer to it
       if (const auto found = joint_numbers_.find(step.joint->name); found != joint_numbers_.end())
         link.joints.push_back(found->second);
     }
@@ -499,7 +499,7 @@ RobotSpec UrdfReader::read() {
   if (!own.empty())
     known = [&](RobotSpec& made) {
       read_clench_element(own.front(), made, path_, cache_);
-      return !own.front().children("dof").empty();  // they say how it closes
+      return !own.front().children("dof").empty();  // they define how it closes
     };
   RobotSpec robot = make_robot(std::move(tree_), file_, cache_, known);
   robot.source = path_.generic_string();
@@ -510,7 +510,7 @@ RobotSpec UrdfReader::read() {
   return robot;
 }
 
-// Hands whose package is missing lack one mesh per link: one sentence reports all of them.
+// Hands with a missing package lack one mesh per link: one message reports all of them.
 void UrdfReader::warn_of_undrawn() const {
   if (undrawn_ == 0) return;
   Diagnostic first = first_undrawn_;
@@ -526,7 +526,7 @@ RobotSpec read_robot_urdf(const fs::path& path, FileCache& cache) {
 }
 
 bool looks_like_urdf(std::string_view text) {
-  // the original's XML has <robot> and <link>, too, and always a <palm>
+  // GraspIt!'s XML has <robot> and <link>, too, and always a <palm>
   return xml_root_name(text) == "robot" && text.find("<link") != std::string_view::npos &&
          text.find("<palm") == std::string_view::npos;
 }

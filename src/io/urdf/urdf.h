@@ -9,7 +9,7 @@ namespace clench {
 /// throws Error  "hand.urdf:31: joint 'a': lower 2 exceeds upper 1 [rad]"
 RobotSpec read_robot_urdf(const std::filesystem::path& path, FileCache& cache);
 
-/// Is this text a URDF: is its outermost element a <robot> that holds links?
+/// True if this text is a URDF: its root element is a <robot> that contains links.
 bool looks_like_urdf(std::string_view text);
 
 }  // namespace clench

@@ -43,10 +43,10 @@ class ClenchReader {
   RobotSpec& robot_;
   NamedFiles files_;
   std::set<std::string> seen_;
-  std::map<int, std::string> dof_names_;  // those that are not their joint's
+  std::map<int, std::string> dof_names_;  // those that differ from their joint's name
 };
 
-/// Nothing else may stand in it.
+/// Fails for any other content of the element.
 void expect_only(const XmlElement& element, const std::vector<std::string>& attributes,
                  bool children = false) {
   for (const auto& name : element.attributes())
@@ -67,8 +67,8 @@ double checked(const XmlValues& values, const char* name, double fallback,
   return x;
 }
 
-/// Two numbers in order; absent where the attribute is.
-/// open  does an end of `unlimited` or more stand for an infinite one?
+/// Two numbers in ascending order; absent if the attribute is absent.
+/// open  true if bounds of `unlimited` or more represent infinite ones
 std::optional<std::array<double, 2>> range(const XmlValues& values, const char* name,
                                            bool open = false) {
   if (!values.has(name)) return {};
@@ -354,7 +354,7 @@ NamedFiles ClenchReader::read() {
   robot_.class_name = values.text("class", robot_.class_name);
   robot_.database_name = values.text("database_name", "");
   for (const XmlElement& child : element_.children()) read_child(child);
-  // joints lead DOFs by their own names until all is read
+  // DOFs have the names of their joints until all elements are read
   for (auto& [number, name] : dof_names_) robot_.dofs[number].name = std::move(name);
   std::set<std::string> names;
   for (const DofSpec& dof : robot_.dofs)

@@ -24,16 +24,16 @@ bool is_folder(const fs::path& path, const ReadOptions& options) {
   return lies_within(path, options.confine) && fs::is_directory(path, code);
 }
 
-/// Is that the name of the folder, upper and lower case alike?
+/// True if the folder has this name, ignoring case.
 bool is_called(const fs::path& folder, const std::string& name) {
   return lower_case(folder.filename().string()) == lower_case(name);
 }
 
-/// The folder of that name in another, else one whose name differs only in case.
+/// The folder of that name in another, otherwise one whose name differs only in case.
 std::optional<fs::path> find_folder(const fs::path& in, const std::string& name,
                                     const ReadOptions& options) {
   if (is_folder(in / name, options)) return in / name;
-  std::set<fs::path> alike;  // the first by name, on every file system
+  std::set<fs::path> alike;  // sorted, so that the choice is the same on every file system
   std::error_code code;
   if (lies_within(in, options.confine))
     for (fs::directory_iterator it(in, code), end; !code && it != end; it.increment(code))
@@ -42,25 +42,25 @@ std::optional<fs::path> find_folder(const fs::path& in, const std::string& name,
   return *alike.begin();
 }
 
-/// Without the slashes that it begins with.
+/// The name without leading slashes.
 std::string without_slashes(const std::string& name) {
   const size_t first = name.find_first_not_of('/');
   return first == std::string::npos ? "" : name.substr(first);
 }
 
-/// The folder of a package as the options name it; empty when they do not.
+/// The folder of a package given by the options; empty if there is none.
 fs::path given_package(const std::string& package, const ReadOptions& options) {
   if (const auto found = options.packages.find(package); found != options.packages.end())
     return found->second;
   for (const auto& [name, folder] : options.packages)
     if (!name.empty() && lower_case(name) == lower_case(package)) return folder;
-  // the name "" stands for every package: its folder, or the one that holds all of them
+  // the name "" stands for every package: its folder, or a folder that contains all of them
   const auto all = options.packages.find("");
   if (all == options.packages.end()) return {};
   return find_folder(all->second, package, options).value_or(all->second);
 }
 
-/// The referrer's folder and those above it, as far as it has any.
+/// The referrer's folder and all folders above it.
 std::vector<fs::path> folders_above(const fs::path& referrer) {
   std::error_code code;
   std::vector<fs::path> out;
@@ -73,7 +73,7 @@ std::vector<fs::path> folders_above(const fs::path& referrer) {
   return out;
 }
 
-/// given  what stands behind the package and a slash, with more slashes perhaps
+/// given  the name after the package and a slash, possibly with more slashes
 fs::path find_in_package(const std::string& package, const std::string& given,
                          const fs::path& referrer, const ReadOptions& options) {
   const std::string rest = without_slashes(given);
@@ -82,7 +82,7 @@ fs::path find_in_package(const std::string& package, const std::string& given,
   auto folders = folders_above(referrer);
   if (!options.folder.empty()) folders.insert(folders.begin(), options.folder);
   using Look = std::function<fs::path(const fs::path&)>;
-  // exact names first, so that another case elsewhere never takes their place
+  // exact names first, so that a name in other case elsewhere is never preferred
   const Look looks[] = {
       [&](const fs::path& file) { return is_readable(file, options) ? file : fs::path(); },
       [&](const fs::path& file) { return find_in_any_case(file, options); }};
@@ -101,7 +101,7 @@ fs::path find_in_package(const std::string& package, const std::string& given,
                                  folder.generic_string());
         return found;
       }
-  // nobody lies inside whose nearest place does not
+  // if the nearest candidate is outside of `confine`, so are all others
   if (!lies_within(folders.front() / package / rest, options.confine))
     fail_outside(excerpt(given), options);
   if (is_folder(folders.front() / package, options) || is_called(folders.front(), package))
@@ -110,8 +110,8 @@ fs::path find_in_package(const std::string& package, const std::string& given,
        in_quotes(package), in_quotes(given));
 }
 
-/// Length of the scheme that a name with slashes begins with: letters, then ':' and a slash. A
-/// single letter is a drive. 0: none.
+/// Length of the scheme with which a name begins: letters, then ':' and a slash; 0 if there is
+/// none. A single letter is a drive.
 size_t scheme_length(const std::string& name) {
   const size_t colon = name.find(':');
   if (colon == std::string::npos || colon < 2 || name.substr(colon + 1, 1) != "/") return 0;
@@ -120,7 +120,7 @@ size_t scheme_length(const std::string& name) {
   return letters ? colon : 0;
 }
 
-/// Bytes that a URI writes as "%20" as they are; empty where the name has none.
+/// The name with escapes such as "%20" decoded; empty if it has none.
 std::string unescaped(const std::string& name) {
   std::string out;
   bool any = false;
@@ -138,7 +138,7 @@ std::string unescaped(const std::string& name) {
   return any ? out : "";
 }
 
-/// `given` has no blanks around it. Its backslashes are slashes, unless a file has them in its name.
+/// `given` is trimmed. Backslashes count as slashes, unless a file name contains them.
 fs::path find_by_scheme(const std::string& given, const fs::path& referrer,
                         const ReadOptions& options) {
   const std::string name = with_slashes(given);
@@ -146,7 +146,7 @@ fs::path find_by_scheme(const std::string& given, const fs::path& referrer,
   if (colon == 0) return find_file(given, referrer, options);
   const std::string scheme = lower_case(name.substr(0, colon)), rest = name.substr(colon + 1);
   if (scheme == "file") {
-    // of file:///tmp/a.stl and file://localhost/tmp/a.stl the path is /tmp/a.stl
+    // the path of file:///tmp/a.stl and file://localhost/tmp/a.stl is /tmp/a.stl
     std::string path = rest.starts_with("//") ? rest.substr(2) : rest;
     if (lower_case(path).starts_with("localhost/")) path = path.substr(std::strlen("localhost"));
     return find_file(path, referrer, options);

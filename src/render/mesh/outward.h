@@ -1,4 +1,5 @@
-// Meshes of which only the outer side is ever visible, so that the inner need not be drawn.
+// Meshes of which only the outer side can ever be visible, so that the inner side need not be
+// drawn.
 #pragma once
 #include "clench/geometry/tree/shape.h"
 #include "clench/scene/scene.h"

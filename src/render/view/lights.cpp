@@ -9,7 +9,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double lamp_radius = 0.06;  // tangent of the half angle subtended by the lamp
-constexpr float lamp_power = 0.62f, room_power = 0.62f;  // each by itself, on a white surface
+constexpr float lamp_power = 0.62f, room_power = 0.62f;  // each alone, on a white surface
 constexpr double floor_power = 0.42;  // fraction of its light that the floor reflects
 
 double fraction(double x) { return x - std::floor(x); }

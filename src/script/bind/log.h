@@ -33,13 +33,13 @@ void suspect_millimeters(lua_State* L, const std::string& subject, double distan
 LogLevel log_level(lua_State* L);
 void set_log_level(lua_State* L, LogLevel level);
 
-/// Logs a diagnostic as its sentence, if the level lets it through. A sink gets its fields, too.
-/// What concerns a file is printed once, even if the file is read several times.
-/// throws  Raised when the script's own sink fails
+/// Logs the message of a diagnostic if the level permits it. A sink receives its fields, too.
+/// Diagnostics of a file are printed once, even if the file is read several times.
+/// throws  Raised when the script's sink fails
 void log(lua_State* L, const Diagnostic& diagnostic);
 
-/// A sink for writers, and for grasps that are applied: what they report is logged as warnings that
-/// are about nothing in particular.
+/// A sink for writers, and for grasps that are applied: their diagnostics are logged as warnings
+/// without a category.
 Diagnostics log_losses(lua_State* L);
 
 }  // namespace clench

@@ -310,7 +310,7 @@ static bool push_strings(lua_State* L, const std::vector<std::string>& strings) 
   return true;
 }
 
-// below is a chunk, or a message with the reason why there is none
+// below is a chunk, or a message with the reason for its absence
 State::Result State::run_loaded(int status, const std::vector<std::string>& arguments) {
   const int base = lua_gettop(L_) - 1;
   const Watched watched{Progress(bar_)};

@@ -64,7 +64,7 @@ class State {
   /// called from a signal handler.
   void interrupt();
 
-  /// For a state in a separate thread: from now on it checks by itself if `end` was called.
+  /// For a state in a separate thread: from now on it regularly checks whether `end` was called.
   void look_for_end();
   /// Makes the running chunk fail with an uncatchable "stopped". May be called from any thread.
   void end();

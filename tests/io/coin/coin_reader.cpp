@@ -18,7 +18,7 @@ namespace {
 
 struct Gathering {
   CoinTriangles found;
-  bool vrml_clockwise = false;  // does the VRML shape at hand turn clockwise?
+  bool vrml_clockwise = false;  // true if the current VRML shape is clockwise
 };
 
 bool is_clockwise(const SoNode* node) {
@@ -71,7 +71,7 @@ CoinTriangles read(SoInput& input) {
   SoSeparator* root = SoDB::readAll(&input);
   if (!root) return gathering.found;
   root->ref();
-  // where a file says nothing about its faces they may be of any shape
+  // if a file does not describe its faces, they may have any shape
   auto* all = new SoSeparator;
   all->ref();
   auto* hints = new SoShapeHints;

@@ -1,5 +1,5 @@
-// Triangles of an Inventor or VRML file as the Coin library reads and cuts them: what our reader is
-// held against. Only for files that are trusted, for Coin is not made for others.
+// Triangles of an Inventor or VRML file as read and cut by the Coin library, for comparison with
+// our reader. Only for trusted files, because Coin is not safe with others.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -17,11 +17,11 @@ struct CoinTriangle {
 
 struct CoinTriangles {
   std::vector<CoinTriangle> list;
-  std::string error;  ///< what Coin said first, empty when it read all
+  std::string error;  ///< first message of Coin, empty if it read the complete file
 };
 
 CoinTriangles read_by_coin(const std::filesystem::path& path);
-/// Of a text, which begins with its header.
+/// Reads a text, which begins with its header.
 CoinTriangles read_by_coin(const std::string& text);
 
 }  // namespace clench::test

@@ -15,7 +15,7 @@ using Eigen::Vector3f;
 
 namespace {
 
-/// Corners, the lowest first, and the color where the triangles differ in it.
+/// Corners, the lowest first, with their color if the triangles differ in color.
 using Row = std::vector<double>;
 
 std::vector<Row> rows_of(const Geometry& geometry) {
@@ -50,7 +50,7 @@ Geometry geometry_of(const CoinTriangles& triangles) {
 
 struct Difference {
   size_t ours = 0, coins = 0;  // triangles
-  size_t only_ours = 0;        // that Coin's are not
+  size_t only_ours = 0;        // triangles that Coin does not have
   double area = 0;             // relative
 };
 
@@ -74,9 +74,9 @@ std::vector<fs::path> scene_files(const fs::path& folder) {
 
 }  // namespace
 
-// Where Coin cuts a polygon that is neither flat nor convex, and a flat one whose corners lie in a
-// row, it begins at other corners than we do; the corners are the same, and so is the area of flat
-// ones. Others differ by what lies between their two ways to be bent.
+// Coin starts at other corners than our reader when it cuts a polygon that is neither flat nor
+// convex, or a flat one with collinear corners; the corners are the same, and so is the area of
+// flat ones. The surfaces of others differ by the two ways to bend them.
 constexpr double bent = 2e-3;
 
 static void check_same(const fs::path& path) {
@@ -98,7 +98,7 @@ TEST_CASE("the original's models have the triangles that Coin finds in them") {
   REQUIRE_SHARED();
   int differing = 0, count = 0;
   for (const auto& path : scene_files(test::shared() / "data")) {
-    // a brace too many, which Coin does not get over
+    // a surplus brace, which Coin rejects
     if (path.filename() == "arizonaObject_revised.iv") continue;
     check_same(path);
     const Geometry coins = geometry_of(read_by_coin(path));
@@ -109,7 +109,8 @@ TEST_CASE("the original's models have the triangles that Coin finds in them") {
   CHECK(differing <= 9);
 }
 
-/// Of a scene in a text: the same triangles as Coin's, within `ulps` of the largest coordinate.
+/// A scene given as a text has the same triangles as with Coin, within `ulps` of the largest
+/// coordinate.
 static void check_same_text(const std::string& text, double ulps = 0) {
   INFO(text);
   const CoinTriangles coin = read_by_coin(text);
@@ -203,8 +204,8 @@ TEST_CASE("each node does to the bit what Coin makes of it") {
     check_same_text(wrl + node);
 }
 
-// products that Coin takes in another order here and there: two of the last places of the largest
-// coordinate
+// products that Coin evaluates in another order in some places: two units in the last place of the
+// largest coordinate
 TEST_CASE("extrusions are what Coin makes of them") {
   for (const std::string fields :
        {"", "beginCap FALSE", "endCap FALSE", "spine [ 0 0 0, 3.3 0 0 ]", "spine [ 0 0 0, 0 -3 0 ]",

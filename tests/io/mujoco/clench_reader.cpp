@@ -9,17 +9,17 @@ namespace clench::test {
 
 namespace {
 
-/// One body directly in the world, with the names of all bodies and joints below it as MuJoCo
-/// numbers them: depth first.
+/// One body directly in the world, with the names of all bodies and joints below it in MuJoCo's
+/// order: depth first.
 struct TopNames {
   std::string name;
   bool free = false;
-  std::vector<Pose> X_TB;                          // of each body, in the first one
-  std::vector<std::string> bodies;                 // as our readers name them
+  std::vector<Pose> X_TB;                          // pose of each body in the first one
+  std::vector<std::string> bodies;                 // as named by our readers
   std::map<std::string, std::string> facts_name;   // of bodies
   std::map<std::string, std::string> facts_joint;  // of joints
   std::map<std::string, JointFacts::Kind> kinds;   // of joints, by our names
-  std::map<std::string, std::string> parents;      // of bodies, in facts' names
+  std::map<std::string, std::string> parents;      // of bodies, by the names of the facts
 };
 
 /// "#3" for an element without a name.
@@ -167,7 +167,7 @@ void add_body(const WorldSpec& world, const PlacedBody* placed, const TopNames& 
       bool stands = false;
       for (const PlacedBody& obstacle : world.bodies)
         if (obstacle.body.name == names.bodies[i]) body.X_WB = obstacle.X_WB, stands = true;
-      // without geometry it is no obstacle
+      // without geometry it is not an obstacle
       if (const BodyFacts* same = theirs.body(body.name); same && !stands) body.X_WB = same->X_WB;
       into.bodies.push_back(std::move(body));
     }

@@ -1,4 +1,4 @@
-// An MJCF file as Clench reads it, as a scene.
+// An MJCF file as read by Clench as a scene.
 #pragma once
 #include <filesystem>
 
@@ -6,9 +6,9 @@
 
 namespace clench::test {
 
-/// Facts of the world that the file becomes. Names are as in read_by_mujoco; obstacles are not
-/// weighed, and a free body stands for all that is fixed to it.
-/// theirs    gives the references of the joints, at which the robots stand
+/// Facts of the world created from the file. Names are as in read_by_mujoco; masses of obstacles
+/// are not compared, and a free body represents all bodies fixed to it.
+/// theirs    provides the references of the joints, at which the robots are posed
 /// warnings  appended to
 ModelFacts read_by_clench(const std::filesystem::path& path, const ModelFacts& theirs,
                           std::vector<std::string>& warnings);

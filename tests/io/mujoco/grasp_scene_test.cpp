@@ -1,4 +1,4 @@
-// Grasps in scenes that grasp:save writes, lifted in MuJoCo.
+// Grasps in scenes written by grasp:save, lifted in MuJoCo.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ using namespace clench::test;
 
 namespace {
 
-/// A scene from the key "grasp" to the key "lift", and up there for a while.
+/// Runs a scene from the key "grasp" to the key "lift", and holds it there for a while.
 class SceneLift {
  public:
   explicit SceneLift(const std::filesystem::path& path) {
@@ -30,7 +30,7 @@ class SceneLift {
     mj_forward(model_.get(), data_.get());
   }
 
-  /// Distance that the object moves in the hand, and how far the object rises [m].
+  /// Distance that the object moves in the hand, and height by which the object rises [m].
   std::pair<double, double> run() {
     const Eigen::Vector3d held = in_hand();
     const double height = data_->xipos[3 * object_ + 2];
@@ -53,7 +53,7 @@ class SceneLift {
         Eigen::Vector3d(data_->xipos + 3 * object_) - Eigen::Vector3d(data_->xpos + 3 * base_);
     return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * p;
   }
-  // controls from those of one key to those of the other
+  // controls interpolated from one key to the other
   template <class Share>
   void steps(double seconds, Share share) {
     const int count = static_cast<int>(std::lround(seconds / model_->opt.timestep));
@@ -71,7 +71,7 @@ class SceneLift {
   int grasp_ = 0, lift_ = 0, object_ = 0, base_ = 0;
 };
 
-// a planned grasp saved as it is, and without friction; returns our own verdicts
+// a planned grasp saved as it is, and without friction; returns our verdicts
 constexpr const char* save_script = R"(
 local clench = require "clench"
 local folder, hand_file, object_file = ...

@@ -133,7 +133,7 @@ std::vector<std::string> differences(const ModelFacts& ours, const ModelFacts& t
   for (const JointFacts& joint : theirs.joints) {
     if (const JointFacts* own = ours.joint(joint.name))
       compare_joints(*own, joint, size, out);
-    else if (joint.kind != JointFacts::Kind::free)  // they make objects or floating robots
+    else if (joint.kind != JointFacts::Kind::free)  // they become objects or floating robots
       out.fail(fmt::format("joint '{}' is missing", joint.name));
   }
   return out.sentences;

@@ -1,4 +1,4 @@
-// Facts about a model of rigid bodies that two readers of its file must agree on, in the world
+// Facts about a model of rigid bodies on which two readers of its file must agree, in the world
 // frame at the reference posture.
 #pragma once
 #include <Eigen/Core>
@@ -19,8 +19,8 @@ struct BodyFacts {
   double mass = 0;                                      ///< [kg]
   Eigen::Vector3d com_W = Eigen::Vector3d::Zero();      ///< center of mass [m]
   Eigen::Matrix3d inertia_W = Eigen::Matrix3d::Zero();  ///< about com_W [kg m^2]
-  std::optional<std::vector<std::string>> merged = {};  ///< names of the bodies it stands for
-  bool weighed = true;                                  ///< false: mass and inertia have no use
+  std::optional<std::vector<std::string>> merged = {};  ///< names of the bodies that it represents
+  bool weighed = true;                                  ///< false: mass and inertia have no effect
   std::optional<std::string> parent = {};               ///< absent: not compared
 };
 
@@ -37,8 +37,8 @@ struct JointFacts {
 };
 
 struct ModelFacts {
-  std::string error;              ///< why the file is refused; empty: it is read
-  std::vector<BodyFacts> bodies;  ///< the world left out, depth first in the file's order
+  std::string error;              ///< why the file is rejected; empty: it is read
+  std::vector<BodyFacts> bodies;  ///< without the world, depth first in the file's order
   std::vector<JointFacts> joints;
 
   const BodyFacts* body(const std::string& name) const;
@@ -48,7 +48,7 @@ struct ModelFacts {
 /// Mass, center of mass and inertia of several bodies together.
 BodyFacts merge(const std::vector<BodyFacts>& parts);
 
-/// Sentences about everything in which our facts differ from theirs.
+/// Messages about all differences between our facts and theirs.
 /// tolerance  relative to the size of the model and of each quantity
 std::vector<std::string> differences(const ModelFacts& ours, const ModelFacts& theirs,
                                      double tolerance);

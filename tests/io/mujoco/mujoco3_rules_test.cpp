@@ -1,5 +1,5 @@
-// Rules of MuJoCo 3 that MuJoCo 2.2.2 does not have or has otherwise. The values were computed by
-// hand from the rule, which each case names, and agree with MuJoCo 3.3.8.
+// Rules of MuJoCo 3 that are missing or different in MuJoCo 2.2.2. The values were computed by hand
+// from the rule that each case names, and agree with MuJoCo 3.3.8.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -113,7 +113,7 @@ TEST_CASE("elements that refer to replicas are replicated") {
                                 "<joint name='j'/>" +
                                 box + "</body></replicate>",
                             "<contact><exclude body1='one' body2='f'/></contact>");
-  // others that they refer to stay as they are
+  // references to other elements are unchanged
   REQUIRE(mixed.error == "");
   CHECK(mixed.world.never_meet.size() == 2);
 }
@@ -140,7 +140,7 @@ TEST_CASE("an attached body keeps its own pose, units and classes, and gets a pr
   CHECK(arm.joints[0].max == 1);
   CHECK(arm.joints[0].viscous == 3);
   CHECK(arm.body.mass == Approx(700.0 / 6));
-  // frames around the body stay behind
+  // frames around the body are omitted
   CHECK((link_in_parent(arm, {0}).position - Eigen::Vector3d(1, 2, 0)).norm() < 1e-12);
   CHECK(link_in_parent(arm, {0}).angle() == Approx(0.5));
   REQUIRE(body.world.robots[0].robot.actuators.size() == 1);
@@ -203,7 +203,7 @@ TEST_CASE("a mesh's mass follows its rule") {
   CHECK(mass(" inertia='convex'") == Approx(6));
   CHECK(mass(" inertia='shell'") == Approx(22));
   CHECK(mass("") == mass(" inertia='legacy'"));
-  // some of the pyramids from the centroid to the faces lie outside, and count all the same
+  // some of the pyramids from the centroid to the faces are outside, and count nevertheless
   CHECK(mass("") == Approx(17.0 / 3));
 }
 
@@ -227,7 +227,7 @@ TEST_CASE("surfaces have mass where a geom says so") {
   CHECK((moments("<geom type='cylinder' size='.1 .2' shellinertia='true'/>") -
          Vector3d(7.278022981, 7.278022981, 2.827433388))
             .norm() < 1e-6);
-  // MuJoCo's is of a shell of finite thickness
+  // MuJoCo's value is that of a shell of finite thickness
   CHECK((moments("<geom type='ellipsoid' size='.1 .2 .3' shellinertia='true'/>") -
          Vector3d(18.07517488, 14.06836658, 8.102680937))
             .norm() < 1e-3);

@@ -1,4 +1,4 @@
-// Actuators, joint dynamics and collision filters of MJCF files, compared with MuJoCo itself.
+// Actuators, joint dynamics and collision filters of MJCF files, compared with MuJoCo.
 #include <doctest/doctest.h>
 #include <mujoco/mujoco.h>
 
@@ -100,8 +100,8 @@ void check_joints(const mjModel& m, const WorldSpec& world) {
   }
 }
 
-/// One of the elements of a default class, or of an actuator, with random attributes; those that
-/// MuJoCo 2.2 treats as 3 does.
+/// An element of a default class, or an actuator, with random attributes; only those that MuJoCo
+/// 2.2 treats like 3.
 std::string actuator_attributes(Random& random, const std::string& kind) {
   const auto number = [&](double low, double high) {
     return fmt::format("{:.3f}", random.uniform(low, high));
@@ -123,7 +123,8 @@ std::string actuator_attributes(Random& random, const std::string& kind) {
 std::string random_actuators(Random& random) {
   const std::array<std::string, 4> kinds = {"general", "motor", "position", "velocity"};
   const auto kind = [&] { return kinds[random.bits() % kinds.size()]; };
-  // classes are of one kind of law: 2.2 clears what 3 keeps where a <position> follows a <general>
+  // classes use one kind of law: if a <position> follows a <general>, 2.2 clears values that 3
+  // keeps
   const auto element = [&](const std::string& k, const std::string& more) {
     return "<" + k + more + actuator_attributes(random, k) + "/>";
   };
@@ -155,8 +156,8 @@ std::pair<std::string, std::string> in_order(std::string a, std::string b) {
   return {a, b};
 }
 
-/// Pairs of bodies that MuJoCo finds in contact; all bodies overlap. A geom of the world stands for
-/// itself.
+/// Pairs of bodies that MuJoCo finds in contact; all bodies overlap. A geom of the world is treated
+/// as a body.
 Names pairs_of_mujoco(const mjModel& m) {
   const test::MujocoData data(mj_makeData(&m));
   mj_kinematics(&m, data.get());
@@ -175,7 +176,7 @@ Names pairs_of_mujoco(const mjModel& m) {
   return out;
 }
 
-/// Pairs that may collide in a world of ours in which nothing is switched off for overlapping.
+/// Pairs that may collide in our world, in which no pairs are disabled because of overlaps.
 Names pairs_of_ours(const WorldSpec& spec) {
   World world;
   for (const OwnFriction& own : spec.frictions) world.add_friction(own);
@@ -214,7 +215,7 @@ Names pairs_of_ours(const WorldSpec& spec) {
   return out;
 }
 
-/// Bodies by the body that they are fixed to, or themselves; "" the world.
+/// The bodies to which bodies are fixed, or the bodies themselves; "" for the world.
 std::map<std::string, std::string> pieces_of(const mjModel& m) {
   std::map<std::string, std::string> out;
   for (int b = 1; b < m.nbody; ++b)
@@ -225,7 +226,7 @@ std::map<std::string, std::string> pieces_of(const mjModel& m) {
   return out;
 }
 
-/// A forest of overlapping balls: free, fixed, hinged, with bits, pairs and exclusions at random.
+/// Many overlapping balls: free, fixed, hinged, with random bits, pairs and exclusions.
 std::string random_balls(Random& random) {
   const auto one_of = [&](int count) { return static_cast<int>(random.bits() % count); };
   int geoms = 0, bodies = 0;
@@ -247,7 +248,7 @@ std::string random_balls(Random& random) {
   };
   std::string inside = geom() + geom();
   for (int i = 0; i < 3; ++i) inside += body(0);
-  // where one joint is driven, of the others no closing is guessed, which takes time
+  // if one joint is driven, closing directions of the others are not guessed, which would take time
   inside += "<body name='driven'><joint name='m'/>" + geom() + "</body>";
   std::string contact;
   for (int i = 0; i < 3; ++i) {

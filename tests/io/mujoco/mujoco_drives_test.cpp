@@ -1,4 +1,4 @@
-// Efforts that our drives state, compared with the forces that MuJoCo computes for the same actuators.
+// Efforts of our drives, compared with the forces that MuJoCo computes for the same actuators.
 #include <doctest/doctest.h>
 #include <mujoco/mujoco.h>
 
@@ -20,13 +20,14 @@ using clench::test::TemporaryFolder;
 namespace {
 
 using Range = std::array<double, 2>;
-constexpr double far = 1e8;  // a control that stands for any
+constexpr double far = 1e8;  // control that represents an arbitrary one
 
 std::string attribute(const char* name, const std::optional<Range>& range) {
   return range ? fmt::format(" {}='{:.6g} {:.6g}'", name, (*range)[0], (*range)[1]) : "";
 }
 
-/// One of the actuators of a random model; what MuJoCo 2.2 does not know is applied by its rule.
+/// One of the actuators of a random model; attributes unknown to MuJoCo 2.2 are applied by their
+/// rules.
 struct Motor {
   std::string element, target;
   bool on_tendon = false;
@@ -37,7 +38,7 @@ struct Motor {
     return element + target + attribute("ctrlrange", control) + attribute("actrange", activation) +
            (for_old ? "" : attribute("forcerange", force)) + (group_off ? " group='3'" : "") + "/>";
   }
-  /// ends of what its law takes as control
+  /// bounds of the input of its law
   Range inputs() const {
     Range range = control.value_or(Range{-far, far});
     if (integrates) range = {range[0] < 0 ? -far : 0, range[1] > 0 ? far : 0};
@@ -47,7 +48,7 @@ struct Motor {
   }
 };
 
-/// Joints a and b, that tendons pull; c, that d follows.
+/// Joints a and b, pulled by tendons; c, followed by d.
 struct Gripper {
   std::array<bool, 4> slides;
   std::array<std::optional<Range>, 4> effort;  // actuatorfrcrange
@@ -131,9 +132,9 @@ Gripper::Gripper(Random& random) {
   offset = random.uniform(-0.2, 0.2);
   const int count = 1 + static_cast<int>(random.bits() % 4);
   for (int i = 0; i < count; ++i) motors.push_back(random_motor(random));
-  // the order that MuJoCo 2.2 asks for
+  // the order required by MuJoCo 2.2
   std::ranges::stable_sort(motors, {}, &Motor::has_activation);
-  // the scale of several forces of one tendon has a test of its own
+  // a separate test covers the scaling of several forces of one tendon
   if (tension &&
       std::ranges::count_if(motors, [](auto& m) { return m.target == " tendon='ab'"; }) > 1)
     tension.reset();
@@ -174,7 +175,7 @@ double bounded(double x, const std::optional<Range>& range) {
   return range ? std::clamp(x, rounded((*range)[0]), rounded((*range)[1])) : x;
 }
 
-/// Efforts on the joints a to d by MuJoCo, for controls, or activations, of the motors.
+/// Efforts on the joints a to d by MuJoCo, for given controls, or activations, of the motors.
 std::array<double, 4> efforts(const Gripper& gripper, const mjModel& m, mjData& d,
                               const std::vector<double>& inputs) {
   int act = 0;
@@ -205,7 +206,7 @@ struct Extremes {
   void take(double x) { low = std::min(low, x), high = std::max(high, x); }
 };
 
-/// The end of a range against what controls of +-1e8 reach.
+/// Compares a bound of a range with the effort for controls of +-1e8.
 void check_end(double ours, double theirs) {
   if (std::isinf(ours))
     CHECK(theirs * (ours > 0 ? 1 : -1) > 1e3);
@@ -263,7 +264,7 @@ TEST_CASE("the efforts of a drive at rest are those that some control exerts in 
     }
     for (int i = 0; i < q.size(); ++i) {
       CAPTURE(spec.dofs[i].name);
-      // of joints that one actuator pulls against each other, limits of each do not count exactly
+      // if one actuator pulls joints against each other, the limits of each are not exact
       std::vector<const JointSpec*> own;
       for (const JointSpec* joint : joints)
         if (joint->dof == i) own.push_back(joint);
@@ -274,7 +275,7 @@ TEST_CASE("the efforts of a drive at rest are those that some control exerts in 
       if (!world.robot(id).dofs[i].driven) {
         ++powerless;
         CHECK(ours.is_zero());
-        // no control changes what it exerts
+        // no control changes its effort
         CHECK(extremes[i].high - extremes[i].low <= 1e-9);
         continue;
       }

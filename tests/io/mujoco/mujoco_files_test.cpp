@@ -1,4 +1,4 @@
-// Our reader of MJCF against MuJoCo: every file of ours and of third parties that MuJoCo reads.
+// Our MJCF reader compared with MuJoCo: all files of ours and of third parties that MuJoCo reads.
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -22,13 +22,13 @@ bool is_mjcf(const fs::path& path) {
   return text.str().find("<mujoco") != std::string::npos;
 }
 
-/// Of two versions of MuJoCo that disagree the younger one counts: MuJoCo 2.2.2 puts a primitive
-/// that is fitted to bounds at the origin of its body.
+/// If two versions of MuJoCo disagree, the newer one is right: MuJoCo 2.2.2 puts a primitive that
+/// is fitted to bounds at the origin of its body.
 bool is_outdated(const fs::path& path) {
   return path.string().find("fitted_primitive") != std::string::npos;
 }
 
-/// Compares all MJCF files below a folder.   returns  how many
+/// Compares all MJCF files below a folder.   returns  their number
 int compare_files(const fs::path& folder, double tolerance) {
   int count = 0;
   if (!fs::is_directory(folder)) return 0;

@@ -1,4 +1,4 @@
-// Friction of pairs of geoms against MuJoCo's contacts.
+// Friction of pairs of geoms compared with MuJoCo's contacts.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ using namespace clench::test;
 
 namespace {
 
-/// Friction of the contact of two balls that overlap, as MuJoCo has it; 0 without friction.
+/// Friction of the contact of two overlapping balls in MuJoCo; 0 without friction.
 double mujoco_friction(const std::filesystem::path& path) {
   char error[1000] = "";
   const MujocoModel model(mj_loadXML(path.c_str(), nullptr, error, sizeof error));
@@ -42,7 +42,7 @@ TEST_CASE("friction of a link on an object is that of MuJoCo's contact") {
                              "</mujoco>",
                              geoms[0], geoms[1]));
     const double theirs = mujoco_friction(path);
-    // each alone, and both in a world
+    // each separately, and both in a world
     ReadOptions options;
     options.body = "r";
     const RobotSpec robot = read_robot(path, options);

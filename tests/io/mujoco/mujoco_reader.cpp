@@ -24,7 +24,7 @@ std::string name_of(const mjModel& m, int type, int id) {
   return name ? name : '#' + std::to_string(id);
 }
 
-/// Moves followers of joint equalities to where these put them: q1 - ref1 = poly(q2 - ref2).
+/// Moves followers of joint equalities to their positions: q1 - ref1 = poly(q2 - ref2).
 void apply_equalities(const mjModel& m, mjData& d) {
   for (int e = 0; e < m.neq; ++e) {
     if (m.eq_type[e] != mjEQ_JOINT || !m.eq_active[e]) continue;
@@ -81,8 +81,8 @@ BodyFacts body_facts(const mjModel& m, const mjData& d, int b) {
   return out;
 }
 
-/// Loads a file with the defaults of MuJoCo 3 for `autolimits` and, where `exact`, the volumes of
-/// meshes.   returns  null, with the error, when MuJoCo refuses it
+/// Loads a file with the defaults of MuJoCo 3 for `autolimits` and, if `exact`, the volumes of
+/// meshes.   returns  null, with the error, if MuJoCo rejects it
 MujocoModel load(const std::filesystem::path& path, bool exact, std::string& error) {
   std::ifstream file(path);
   std::stringstream stream;
@@ -124,7 +124,8 @@ ModelFacts read_by_mujoco(const std::filesystem::path& path) {
   apply_equalities(*m, *d);
   mj_kinematics(m.get(), d.get());
   for (int b = 1; b < m->nbody; ++b) out.bodies.push_back(body_facts(*m, *d, b));
-  // else the volume of a mesh is that of a box of the same inertia; a total mass spreads the error
+  // otherwise the volume of a mesh is that of a box of the same inertia; a total mass spreads the
+  // error
   for (int g = 0; g < m->ngeom && !exact; ++g)
     if (m->geom_type[g] == mjGEOM_MESH)
       for (BodyFacts& body : out.bodies) body.weighed = false;

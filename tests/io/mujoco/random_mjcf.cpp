@@ -162,7 +162,7 @@ class Generator {
     if (chance(p)) element.set("class", one_of(names));
   }
 
-  /// first  of a group that all ranges contain
+  /// first  the group of the geom is in all ranges of groups
   Element geom(bool of_world = false, bool first = false) {
     constexpr std::string_view types[] = {"sphere",    "capsule", "cylinder",
                                           "ellipsoid", "box",     "mesh"};
@@ -174,7 +174,7 @@ class Generator {
     if (type == "mesh") {
       out.set("mesh", chance(0.5) ? "m0" : "m1");
     } else if (type != "sphere" && chance(0.3)) {
-      // a position beside it, which a class may give, is refused by MuJoCo 2.2.2
+      // MuJoCo 2.2.2 rejects a position given together with it, which a class may contain
       out = Element("geom");
       out.set("class", "plain").set("type", type);
       out.set("fromto", numbers(3, -0.5, 0) + ' ' + numbers(3, 0.1, 0.5));
@@ -245,7 +245,7 @@ class Generator {
         out.add(Element("joint").set("type", "free").set("class", "plain"));
     } else if (chance(depth == 0 ? 0.3 : 0.7)) {
       for (int i = 0, n = integer(1, 2); i < n; ++i) {
-        // rotations cannot follow a ball
+        // rotations cannot follow a ball joint
         const std::string type =
             i == 0 && n == 1 ? one_of(joint_types) : joint_types[integer(0, 1)];
         out.add(joint(type));

@@ -1,4 +1,4 @@
-// Random MJCF models over the elements that MuJoCo 2.2.2 and Clench both read.
+// Random MJCF models of elements that both MuJoCo 2.2.2 and Clench read.
 #pragma once
 #include <cstdint>
 #include <string>

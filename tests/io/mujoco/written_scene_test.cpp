@@ -1,4 +1,4 @@
-// Written scenes, as MuJoCo loads them and as Clench reads them again.
+// Written scenes, as loaded by MuJoCo and as read again by Clench.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -41,7 +41,7 @@ std::array<double, 2> table_friction(const MaterialTable& table, const std::stri
   return {both.statics, both.kinetic};
 }
 
-/// A world, the scene that was written of it, and both readings of that.
+/// A world, the scene written from it, and both readings of the scene.
 struct Written {
   TemporaryFolder folder;
   WorldSpec world;
@@ -81,7 +81,7 @@ struct Written {
   }
 };
 
-// at a random place, its DOFs anywhere within their ranges
+// at a random pose, with DOFs anywhere within their ranges
 void add_random_robot(WorldSpec& world, const RobotSpec& robot, Random& random) {
   PlacedRobot placed;
   placed.robot = robot;
@@ -147,7 +147,7 @@ void check_joints(const Written& written, const RobotSpec& robot) {
   }
 }
 
-// forces of DOFs with motors of their own law: those of their first joints
+// forces of DOFs with custom motor laws: those of their first joints
 void check_servos(const Written& written, const RobotSpec& robot) {
   const mjModel& m = *written.model;
   int servos = 0;
@@ -198,11 +198,11 @@ void check_robot_scene(const RobotSpec& robot, Random& random) {
   add_random_robot(other, robot, random);
   pose_joints(written, robot, other.robots[0].dofs);
   check_poses(written, robot, placed.X_WB, other.robots[0].dofs);
-  // read by us, it is the same tree
+  // read by Clench, it is the same tree
   const WorldSpec back = read_world(written.path());
   REQUIRE(back.robots.size() == 1);
   const RobotSpec& again = back.robots[0].robot;
-  // joints on springs move by themselves
+  // joints with springs move independently
   const auto springs = [](const DofSpec& dof) { return dof.kind == DofKind::compliant; };
   const bool compliant = std::ranges::any_of(robot.dofs, springs);
   CHECK(again.dofs.size() == (compliant ? named_joints(robot).size() : robot.dofs.size()));
@@ -287,14 +287,14 @@ TEST_CASE("joints of one motor stay coupled while something presses on a link") 
   for (const auto& [pressed, spec] : joints) {
     CAPTURE(pressed);
     mj_resetDataKeyframe(&m, &d, 0);
-    // as of 5 N at the end of a pad of 40 mm
+    // corresponds to 5 N at the end of a pad of 40 mm
     d.qfrc_applied[m.jnt_dofadr[written.id(mjOBJ_JOINT, pressed)]] = 0.1;
     for (int i = 0; i < 1000; ++i) mj_step(&m, &d);
     const auto angle = [&](size_t i) {
       const int j = written.id(mjOBJ_JOINT, joints[i].first);
       return (d.qpos[m.jnt_qposadr[j]] - joints[i].second->offset) / joints[i].second->ratio;
     };
-    // a pad of 40 mm stays level to a hundredth of a millimeter
+    // a pad of 40 mm stays level within a hundredth of a millimeter
     for (size_t i = 1; i < joints.size(); ++i) CHECK(std::abs(angle(i) - angle(0)) < 2.5e-4);
   }
 }
@@ -322,7 +322,7 @@ TEST_CASE("the keys of a scene put the hand on its carriage, and objects, where 
     mj_kinematics(written.model.get(), written.data.get());
     check_poses(written, robot, other.robots[0].X_WB, other.robots[0].dofs);
     check_near(key.bodies[0], written.pose_of("sphere"));
-    // servos at their targets exert nothing but what carries the weight
+    // servos at their targets only compensate the weight
     mj_forward(written.model.get(), written.data.get());
     for (int a = 0; a < written.model->nu; ++a) {
       const int j = written.model->actuator_trnid[2 * a];
@@ -333,7 +333,7 @@ TEST_CASE("the keys of a scene put the hand on its carriage, and objects, where 
 }
 
 TEST_CASE("friction of every pair that can touch is that of the world") {
-  // materials whose pairs no coefficients of single geoms can express
+  // materials whose pairs cannot be expressed by coefficients of single geoms
   Written written;
   for (const char* material : {"rubber", "rubber", "glass", "metal", "stone"}) {
     PlacedBody ball;

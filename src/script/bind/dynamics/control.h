@@ -1,5 +1,5 @@
-// Scripts that take part in a run: functions called at steps, tasks, listeners. They belong to a
-// world in a Lua state.
+// Functions of scripts in a run: hooks called at steps, tasks, listeners. They belong to a world in
+// a Lua state.
 #pragma once
 #include "clench/script/bind/handles.h"
 
@@ -7,7 +7,7 @@ namespace clench {
 
 /// Pushes the table of hooks of the world's runs, or nothing if there is none.
 /// make     create an empty one if there is none
-/// returns  is there a table?
+/// returns  true if there is a table
 bool push_hooks(lua_State* L, const WorldPtr& world, bool make);
 
 /// Calls the logs and recordings of a world that are due, as a run does before its first step and

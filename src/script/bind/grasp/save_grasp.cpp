@@ -183,7 +183,7 @@ int save_grasp(lua_State* L) {
     const auto& robots = world.robots();
     request.carriage = static_cast<int>(std::ranges::find(robots, grasp.hand) - robots.begin());
   } else {
-    // the arm would have to move it
+    // these keys would require motions of the arm
     request.keys = {request.keys[1]};
     log_warning(L, fmt::format("{}: '{}' is carried by a robot: the scene has the key 'grasp', and "
                                "no 'pregrasp' and 'lift'",

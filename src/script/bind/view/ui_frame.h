@@ -1,4 +1,5 @@
-// What the bindings of ui share: the user interface of a call, its frame, colors and bodies of containers.
+// Functions shared by the bindings of ui: the user interface of a call, its frame, colors and
+// bodies of containers.
 #pragma once
 #include <string>
 #include <vector>
@@ -17,7 +18,7 @@ inline Gui& open_gui(lua_State* L) {
   return *handle.gui;
 }
 
-// for what describes a frame
+// for functions that describe a frame
 inline Gui& framed_gui(lua_State* L) {
   Gui& gui = open_gui(L);
   if (!self<UiHandle>(L).in_frame) fail("{}: expected a call within ui:frame", subject(L));
