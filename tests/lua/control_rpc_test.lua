@@ -379,6 +379,23 @@ test("requests read and write files only below the server's folder, and none wit
   t.equal(code(reader.call("world.import_object", {path = "sub/mug.iv", options = {confine = "/"}})), -32002)
   t.equal(code(reader.call("world.save", {path = "../out.wld"})), -32002)
   t.equal(code(reader.call("world.save")), -32602)
+  -- links to nothing, to which an ending is appended, and folders of meshes may lead out, too
+  assert(os.execute(("ln -s %s.wld %s/l.wld && ln -s loop %s/loop && ln -s %s.png %s/l.png && ln -s /tmp %s/m_files"):format(secret, folder, folder, secret, folder, folder)))
+  for _, path in ipairs {"l", "l.wld"} do t.equal(code(reader.call("world.save_as", {path = path})), -32002) end
+  t.ok(code(reader.call("world.save", {path = "loop/x.wld"})))
+  t.equal(code(reader.call("world.save_image", {path = "l", options = {size = {16, 16}}})), -32002)
+  for _, path in ipairs {"m.wld", "m.xml", "m.lua"} do t.equal(code(reader.call("world.save", {path = path})), -32002, path) end
+  t.equal(code(reader.call("file.convert", {from = "sub/mug.iv", to = "m.xml"})), -32002)
+  t.ok(not io.open(secret .. ".wld") and not io.open(secret .. ".png"))
+  -- what is saved once has its file
+  t.equal(reader.get("world.save_as", {path = "n"}), folder .. "/n.wld")
+  t.equal(reader.get "world.save", folder .. "/n.wld")
+  open.session.path = "/tmp/elsewhere.wld"
+  t.equal(code(reader.call("world.save")), -32602)
+  reader.get "grasp.find_virtual"
+  t.equal(reader.get("grasp.save_virtual", {path = "v.vgr"}), folder .. "/v.vgr")
+  reader.get("grasp.load_virtual", {path = "v.vgr"})
+  t.equal(code(reader.call("grasp.load_virtual", {path = "away/v.vgr"})), -32002)
   t.ok(#world.bodies > 0)
   os.execute("rm -rf " .. folder .. " " .. secret)
 end)
