@@ -2,6 +2,7 @@ local check = require "clench.port.check"
 local class = require "clench.class"
 local classes = require "clench.classes"
 local described = require "clench.described"
+local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local loop = clench.loop
 local new_client = require "clench.control.client"
@@ -77,6 +78,16 @@ local function serve_one(self, client)
   return line ~= nil
 end
 
+-- the same; a fault of ours ends the connection of the client that has met it, not the server
+local function serve_safely(self, client)
+  local ok, some = pcall(serve_one, self, client)
+  if ok then return some end
+  if is_stopped(some) then error(some, 0) end
+  clench.log.warning(("server: client %d was disconnected after an internal error: %s"):format(client.number, error_text(some)))
+  client:close "an internal error"
+  return true
+end
+
 local max_turn = 0.002  -- for which clients are served before others run, jobs and timers for instance [s]
 
 -- Serves clients in the order in which they connected, a line of each in turn, until no lines are left.
@@ -84,7 +95,7 @@ local function serve(self)
   local began, some = loop.time(), nil
   repeat
     some = false
-    for _, client in ipairs {table.unpack(self.clients)} do some = serve_one(self, client) or some end
+    for _, client in ipairs {table.unpack(self.clients)} do some = serve_safely(self, client) or some end
     if some and loop.time() - began > max_turn then
       coroutine.yield()
       began = loop.time()

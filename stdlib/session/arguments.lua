@@ -48,9 +48,12 @@ local function is_of(kind, value)
   if kind == "number" then return type(value) == "number" and value == value and value - value == 0 end
   if kind == "integer" then return math.type(value) == "integer" end
   if kind == "pose" or kind == "vec3" then return type(value) == "table" or clench.type(value) == kind end
-  if kind == "body" or kind == "robot" then return type(value) == "string" or clench.type(value) == kind or clench.type(value) == "body" end
+  if kind == "body" or kind == "robot" then return type(value) == "string" or clench.type(value) == "robot" or clench.type(value) == "body" end
   return type(value) == kind
 end
+
+-- "an integer", "a number"
+local function with_article(word) return (word:find "^[aeiou]" and "an " or "a ") .. word end
 
 local function check_range(subject, parameter, value)
   local low, high = parameter.min, parameter.max
@@ -85,10 +88,11 @@ function arguments.read(command, given)
     local name, value = parameter.name, given and given[parameter.name]
     if value == nil then value = parameter.default end
     if value == nil and not parameter.optional then
-      raise(("%s: %s: expected a %s, got nothing"):format(subject, name, parameter.type))
+      raise(("%s: %s: expected %s, got nothing"):format(subject, name, with_article(parameter.type)))
     end
     if value ~= nil then
-      if not is_of(parameter.type, value) then raise(("%s: %s: expected a %s, got %s"):format(subject, name, parameter.type, described(value))) end
+      if parameter.type == "integer" and math.type(value) == "float" then value = math.tointeger(value) or value end
+      if not is_of(parameter.type, value) then raise(("%s: %s: expected %s, got %s"):format(subject, name, with_article(parameter.type), described(value))) end
       if type(value) == "number" then check_range(subject, parameter, value) end
       if parameter.choices then check_choice(subject, parameter, value) end
     end
@@ -110,10 +114,18 @@ local function names_in(list)
   return names
 end
 
---- The body, robot or link with an address; other values are returned unchanged.
+-- a body or robot of the open world
+local function of_world(world, thing)
+  local kind = clench.type(thing)
+  if kind ~= "body" and kind ~= "robot" then raise("session: expected a body or robot, or its address, got " .. described(thing)) end
+  if thing.world ~= world then raise(("session: '%s' belongs to another world"):format(thing.name)) end
+  return thing
+end
+
+--- The body, robot or link with an address; bodies and robots of the open world are returned unchanged.
 function arguments.find(session, address)
-  if type(address) ~= "string" then return address end
   local world = session.world or raise "session: no world is open"
+  if type(address) ~= "string" then return of_world(world, address) end
   local parts = parts_of(address)
   for _, robot in ipairs(world.robots) do
     if robot.name == parts[1] then
@@ -126,7 +138,7 @@ function arguments.find(session, address)
   end
   local names = names_in(world.robots)
   for _, name in ipairs(names_in(world.bodies)) do names[#names + 1] = name end
-  raise(("session: there is no body or robot '%s'%s"):format(address, suggest(address, names)))
+  raise(("session: there is no body or robot %s%s"):format(described(address), suggest(address, names)))
 end
 
 --- The body with an address; for a robot, its base.
@@ -142,6 +154,15 @@ function arguments.find_several(session, address)
   return {table.unpack(session.selection)}
 end
 
+--- The bodies and robots of a list of addresses.
+---@param name string  of the argument, for errors
+function arguments.find_all(session, name, addresses)
+  if #addresses == 0 and next(addresses) ~= nil then raise(("session: %s: expected a list, got %s"):format(name, described(addresses))) end
+  local found = {}
+  for i, address in ipairs(addresses) do found[i] = arguments.find(session, address) end
+  return found
+end
+
 --- The job with a number in `session.jobs`; the last one by default.
 function arguments.find_job(session, number)
   local jobs = session.jobs
@@ -151,10 +172,9 @@ end
 
 --- The robot with an address; without an address, the current hand.
 function arguments.find_robot(session, address)
-  local found = address == nil and session.hand or arguments.find(session, address)
-  if clench.type(found) ~= "robot" then
-    raise(address == nil and "session: no hand is current" or ("session: expected a robot, got the body '%s'"):format(found.name))
-  end
+  if address == nil then return session.hand or raise "session: no hand is current" end
+  local found = arguments.find(session, address)
+  if clench.type(found) ~= "robot" then raise(("session: expected a robot, got the body '%s'"):format(found.name)) end
   return found
 end
 

@@ -15,8 +15,12 @@ local function number(x)
   return ("%.17g"):format(x)
 end
 
+local max_depth = 100  -- of tables in tables
+
 --- A value as a Lua expression.
-function script.literal(value)
+---@param depth? integer  of the tables that contain it
+function script.literal(value, depth)
+  depth = depth or 0
   local kind = type(value)
   if kind == "number" then return number(value) end
   if kind == "string" then return ("%q"):format(value) end
@@ -27,8 +31,9 @@ function script.literal(value)
     return ("clench.pose {xyz = %s, quat = {%s, %s, %s, %s}}"):format(script.literal(value.position), number(q[1]), number(q[2]), number(q[3]), number(q[4]))
   end
   if kind ~= "table" then raise("session: " .. described(value) .. " cannot be logged as text") end
+  if depth > max_depth then raise(("session: a table that is nested more than %d deep cannot be logged; does it contain itself?"):format(max_depth)) end
   local parts, keys = {}, {}
-  for i, item in ipairs(value) do parts[i] = script.literal(item) end
+  for i, item in ipairs(value) do parts[i] = script.literal(item, depth + 1) end
   for key in pairs(value) do
     local is_in_list = math.type(key) == "integer" and key >= 1 and key <= #parts
     if not is_in_list then keys[#keys + 1] = key end
@@ -37,7 +42,7 @@ function script.literal(value)
   for _, key in ipairs(keys) do
     -- a name that is not a keyword of Lua needs no brackets
     local is_name = type(key) == "string" and key:match "^[%a_][%w_]*$" and load("local " .. key .. " = 1")
-    parts[#parts + 1] = (is_name and key or "[" .. script.literal(key) .. "]") .. " = " .. script.literal(value[key])
+    parts[#parts + 1] = (is_name and key or "[" .. script.literal(key, depth + 1) .. "]") .. " = " .. script.literal(value[key], depth + 1)
   end
   return "{" .. table.concat(parts, ", ") .. "}"
 end

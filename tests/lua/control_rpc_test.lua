@@ -93,6 +93,59 @@ test("malformed requests have the standard errors", function(t)
   t.equal(client.call("body.mass", {body = "nobody", mass = 1}).error.data.kind, "input")
 end)
 
+test("a message that is not UTF-8 is refused, and the server goes on", function(t)
+  local server <close> = serve()
+  local client = connect(server)
+  for _, line in ipairs {'{"jsonrpc":"2.0","id":"\xFF","method":"world.hash"}', '{"jsonrpc":"2.0","id":1,"method":"\xC0\x80"}', '[{"jsonrpc":"2.0","id":"\xED\xA0\x80","method":"world.hash"}]'} do
+    client.port:write(line .. "\n")
+    local message = client.receive()
+    t.equal({message.error.code, message.id}, {-32700})
+    t.ok(message.error.message:find "^byte %d+ is not UTF%-8$", message.error.message)
+  end
+  t.ok(client.get "world.hash")
+end)
+
+test("a request whose id is null is answered, and no other one without an id", function(t)
+  local server <close> = serve()
+  local client = connect(server)
+  local function ids(line)
+    client.port:write(line .. '\n{"jsonrpc":"2.0","id":"mark","method":"world.hash"}\n')
+    local count = 0
+    while true do
+      local message = client.receive()
+      if message.id == "mark" then return count end
+      count = count + math.max(#message, 1)
+    end
+  end
+  local form = '{"jsonrpc":"2.0","method":"world.hash",%s}'
+  t.equal(ids(form:format '"id":null'), 1)
+  t.equal(ids(form:format '"params":{"id":null}'), 0)
+  t.equal(ids(form:format '"params":{"x":"\\\\\\"id\\":null"}'), 0)
+  t.equal(ids("[" .. form:format '"params":{}' .. "," .. form:format '"id" : null' .. ',{"jsonrpc":"2.0","method":"read","params":{"items":[[],{"id":null}]}}]'), 1)
+end)
+
+test("what is not a list or an address is refused, not passed over", function(t)
+  local server <close>, world = serve()
+  local client = connect(server)
+  for _, case in ipairs {
+    {"read", {items = {a = 1}}, "items: expected a list"}, {"read", {items = {{fields = {a = "time"}}}}, "fields: expected a list"},
+    {"read", {items = {{of = 5, fields = {"time"}}}}, "expected a body or robot, or its address, got 5"},
+    {"read", {items = {{of = {time = 1}, fields = {"time"}}}}, "or its address, got a table with names"}, {"get", {fields = {a = "time"}}, "fields: expected a list"},
+    {"world.select", {addresses = {5}}, "or its address, got 5"}, {"world.select", {addresses = {a = "mug"}}, "addresses: expected a list"},
+    {"world.average_contacts", {links = {a = "mug"}}, "links: expected a list"}, {"step", {efforts = {{0, 0, 0, 0}}}, "efforts: expected an object of numbers by robot"},
+  } do
+    local problem = client.call(case[1], case[2]).error
+    t.ok(problem.message:find(case[3], 1, true) and problem.code ~= -32603, problem.message)
+  end
+  -- one of two things may be left out, either one
+  client.get "grasp.autograsp"
+  t.ok(#client.get("world.contacts", {a = "mug"}) > 0)
+  t.equal(client.get("world.contacts", {b = "mug"}), client.get("world.contacts", {a = "mug"}))
+  world.objects[1].pose = world.robots[1].pose
+  t.ok(#client.get("world.colliding", {a = "mug"}) > 0)
+  t.equal(client.get("world.colliding", {b = "mug"}), client.get("world.colliding", {a = "mug"}))
+end)
+
 test("a batch has a response for each request, and none for notifications", function(t)
   local server <close>, _, hand = serve()
   local client = connect(server)
@@ -326,6 +379,23 @@ test("requests read and write files only below the server's folder, and none wit
   t.equal(code(reader.call("world.import_object", {path = "sub/mug.iv", options = {confine = "/"}})), -32002)
   t.equal(code(reader.call("world.save", {path = "../out.wld"})), -32002)
   t.equal(code(reader.call("world.save")), -32602)
+  -- links to nothing, to which an ending is appended, and folders of meshes may lead out, too
+  assert(os.execute(("ln -s %s.wld %s/l.wld && ln -s loop %s/loop && ln -s %s.png %s/l.png && ln -s /tmp %s/m_files"):format(secret, folder, folder, secret, folder, folder)))
+  for _, path in ipairs {"l", "l.wld"} do t.equal(code(reader.call("world.save_as", {path = path})), -32002) end
+  t.ok(code(reader.call("world.save", {path = "loop/x.wld"})))
+  t.equal(code(reader.call("world.save_image", {path = "l", options = {size = {16, 16}}})), -32002)
+  for _, path in ipairs {"m.wld", "m.xml", "m.lua"} do t.equal(code(reader.call("world.save", {path = path})), -32002, path) end
+  t.equal(code(reader.call("file.convert", {from = "sub/mug.iv", to = "m.xml"})), -32002)
+  t.ok(not io.open(secret .. ".wld") and not io.open(secret .. ".png"))
+  -- what is saved once has its file
+  t.equal(reader.get("world.save_as", {path = "n"}), folder .. "/n.wld")
+  t.equal(reader.get "world.save", folder .. "/n.wld")
+  open.session.path = "/tmp/elsewhere.wld"
+  t.equal(code(reader.call("world.save")), -32602)
+  reader.get "grasp.find_virtual"
+  t.equal(reader.get("grasp.save_virtual", {path = "v.vgr"}), folder .. "/v.vgr")
+  reader.get("grasp.load_virtual", {path = "v.vgr"})
+  t.equal(code(reader.call("grasp.load_virtual", {path = "away/v.vgr"})), -32002)
   t.ok(#world.bodies > 0)
   os.execute("rm -rf " .. folder .. " " .. secret)
 end)

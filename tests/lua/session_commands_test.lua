@@ -83,6 +83,12 @@ test("collisions are switched for the world, a body, a pair and the selection, a
   t.equal(replayed(session):hash(), world:hash())
   for _ = 1, 4 do session:undo() end
   t.equal(world:hash(), first)
+  -- a pair of which one is missing is not taken for the complete world
+  session.selection = {}
+  t.fails(function() session:run("body.collisions", {other = "mug"}) end, "other: expected one body beside it, got 0")
+  session:run("world.select", {addresses = {"mug", "barrett"}})
+  t.fails(function() session:run("body.collisions", {other = "mug"}) end, "other: expected one body beside it, got 2")
+  t.equal(world:hash(), first)
 end)
 
 test("commands act on the selection", function(t)

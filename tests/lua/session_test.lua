@@ -147,6 +147,41 @@ test("a command that fails leaves the session unchanged", function(t)
   t.fails(function() clench.session(3) end, "clench.session: expected a world, got 3")
 end)
 
+test("what belongs to another world, or is no body at all, is refused", function(t)
+  local session, other = opened(), opened()
+  local hash = other.world:hash()
+  for name, args in pairs {["body.move"] = {body = other.object, pose = {xyz = {1, 0, 0}}}, ["body.mass"] = {body = other.object, mass = 1}, ["grasp.autograsp"] = {hand = other.hand},
+                           ["grasp.select_object"] = {object = other.object}, ["world.select"] = {addresses = {other.object}}, ["body.distance"] = {a = "mug", b = other.hand}} do
+    t.fails(function() session:run(name, args) end, "belongs to another world")
+  end
+  t.equal(other.world:hash(), hash)
+  t.equal(#session.history.done, 1)
+  session:run("body.move", {body = session.hand, pose = {xyz = {0, 0, 1}}})  -- a handle does as well as an address
+  t.equal(session.hand.pose.position.z, 1)
+  session:undo()
+  for _, junk in ipairs {5, {}, true, print} do
+    t.fails(function() session:run("world.select", {addresses = {junk}}) end, "expected a body or robot, or its address, got ")
+    t.fails(function() session:find(junk) end, "expected a body or robot, or its address, got ")
+  end
+  t.fails(function() session:run("world.select", {addresses = {a = "mug"}}) end, "addresses: expected a list, got a table with names")
+  t.equal(#session.selection, 0)
+  t.fails(function() session:find(("x"):rep(1e6)) end, "there is no body or robot 'xxx", "xx...'")
+end)
+
+test("arguments that cannot be logged or counted are refused in a sentence", function(t)
+  local session = opened()
+  local circle = {}
+  circle[1] = circle
+  t.fails(function() session:run("grasp.dofs", {dofs = circle}) end, "nested more than 100 deep cannot be logged; does it contain itself?")
+  t.fails(function() session:run("world.open", {path = "x.wld", options = circle}) end, "does it contain itself?")
+  session:run("dynamics.step", {count = 2.0})
+  t.close(session.world.time, 2 * session.world.time_step, 1e-12)
+  t.equal(replayed(session):hash(), session.world:hash())
+  t.fails(function() session:run("dynamics.step", {count = 1.5}) end, "count: expected an integer, got 1.5")
+  t.fails(function() session:run("dynamics.step", {count = 0.0}) end, "count: expected a number from 1 to")
+  t.fails(function() session:run("grasp.find_virtual", {count_per_link = 101}) end, "count_per_link: expected a number from 1 to 100, got 101")
+end)
+
 test("saving marks a session as unmodified", function(t)
   local session = opened()
   t.ok(not session:is_modified())

@@ -1,14 +1,18 @@
 --- Files that JSON-RPC clients may name: none, unless the server has a folder; then those below it, wherever links lead.
 local canonical = require "clench.canonical"
 local failure = require "clench.control.rpc.failure"
+local with_ending = require "clench.session.with_ending"
 local files = {}
 
 -- parameters that are paths, of commands whose other parameters are known to name no files
 local known = {
   ["world.open"] = {"path"}, ["world.import_robot"] = {"path"}, ["world.import_object"] = {"path"}, ["world.import_obstacle"] = {"path"},
   ["world.save"] = {"path"}, ["world.save_as"] = {"path"}, ["world.save_image"] = {"path"}, ["file.check"] = {"path"}, ["file.convert"] = {"from", "to"},
+  ["grasp.load_virtual"] = {"path"}, ["grasp.save_virtual"] = {"path"},
 }
-local writes_only = {["world.save"] = true, ["world.save_as"] = true, ["world.save_image"] = true}
+-- these take no options of readers
+local has_no_reader = {["world.save"] = true, ["world.save_as"] = true, ["world.save_image"] = true, ["grasp.load_virtual"] = true, ["grasp.save_virtual"] = true}
+local endings = {["world.save_as"] = ".wld", ["world.save_image"] = ".png"}  -- that the command appends to names without one
 
 -- a parameter of such a name is taken for a path in any other command, which is refused
 local suspicious = {path = true, paths = true, file = true, files = true, folder = true, root = true}
@@ -21,16 +25,18 @@ local function names_files(command)
   return false
 end
 
--- a path below the folder, as the client wrote it: relative, and without ".."
+local function leads_out(folder, whole)
+  local root = canonical(folder)
+  return canonical(whole):sub(1, #root + 1) ~= root .. "/"
+end
+
+-- a path below the folder, as the client wrote it: relative, and without ".."; with the folder of meshes that would be written beside it
 local function path_below(folder, name, path)
   if type(path) ~= "string" or path == "" then failure.raise("params", "%s: expected the name of a file below the server's folder", name) end
   local is_outside = path:sub(1, 1) == "/" or path:find "[%z\n]" ~= nil
   for part in path:gmatch "[^/]+" do is_outside = is_outside or part == ".." end
   local whole = folder .. "/" .. path
-  if not is_outside then
-    local root = canonical(folder)
-    is_outside = canonical(whole):sub(1, #root + 1) ~= root .. "/"
-  end
+  is_outside = is_outside or leads_out(folder, whole) or leads_out(folder, whole:gsub("%.[^./]*$", "") .. "_files/x")
   if is_outside then failure.raise("refused", "%s: '%s' does not lie below the server's folder", name, path) end
   return whole
 end
@@ -45,16 +51,27 @@ local function confined_options(server, name, given)
   return options
 end
 
+-- is the world saved without a path, in the file that it has below the folder?
+local function has_own_file(server, name, args)
+  local path = server.session.path
+  return name == "world.save" and args.path == nil and path ~= nil and not leads_out(server.folder, path)
+end
+
 --- The arguments of a command, with paths that lie below the server's folder.
 function files.confine(server, command, args)
   local name = command.name
   if not names_files(command) then return args end
   if not server.folder then failure.raise("refused", "%s: this server reads and writes no files (it was started without a folder)", name) end
   if not known[name] then failure.raise("refused", "%s: commands of scripts that name files are not for clients", name) end
+  if has_own_file(server, name, args) then return args end
   local out = {}
   for key, value in pairs(args) do out[key] = value end
-  for _, parameter in ipairs(known[name]) do out[parameter] = path_below(server.folder, parameter, args[parameter]) end
-  if not writes_only[name] then out.options = confined_options(server, name, args.options) end
+  for _, parameter in ipairs(known[name]) do
+    local path = args[parameter]
+    if endings[name] and type(path) == "string" and path ~= "" then path = with_ending(path, endings[name]) end
+    out[parameter] = path_below(server.folder, parameter, path)
+  end
+  if not has_no_reader[name] then out.options = confined_options(server, name, args.options) end
   return out
 end
 

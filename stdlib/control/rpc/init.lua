@@ -1,9 +1,11 @@
 --- JSON-RPC 2.0, one message per line: every request is answered, wrong ones too; notifications and answers of long requests may come between.
 local arguments = require "clench.session.arguments"
 local commands = require "clench.control.rpc.commands"
+local shown = require "clench.described"
 local failure = require "clench.control.rpc.failure"
 local is_stopped = require "clench.is_stopped"
 local jobs = require "clench.control.rpc.jobs"
+local null_ids = require "clench.control.rpc.null_ids"
 local queries = require "clench.control.rpc.queries"
 local stepping = require "clench.control.rpc.stepping"
 local subscriptions = require "clench.control.rpc.subscriptions"
@@ -40,7 +42,7 @@ local function hello(context, args)
 end
 
 local function described(session, name)
-  local entry = methods[name] or commands.find(session, name) or failure.raise("params", "method: there is no method '%s'%s", name, suggest(name, names_of(session)))
+  local entry = methods[name] or commands.find(session, name) or failure.raise("params", "method: there is no method %s%s", shown(name), suggest(name, names_of(session)))
   return {name = name, text = entry.text or entry.label, parameters = entry.parameters or {}, reads = entry.reads == true, long = not methods[name] and commands.is_long(entry)}
 end
 
@@ -70,7 +72,7 @@ for _, query in ipairs(queries) do query.reads = true end
 
 -- the result of a request whose form is right
 local function call(context, name, params)
-  if not context.client.is_authorized and name ~= "hello" then failure.raise("unauthorized", "%s: expected hello with the server's token first", name) end
+  if not context.client.is_authorized and name ~= "hello" then failure.raise("unauthorized", "%s: expected hello with the server's token first", shown(name)) end
   local method = methods[name]
   if method then
     local ok, args = pcall(arguments.read, method, params)
@@ -78,7 +80,7 @@ local function call(context, name, params)
     return method.run(context, args)
   end
   local command = commands.find(context.session, name)
-  if not command then failure.raise("method", "there is no method '%s'%s", name, context.client.is_authorized and suggest(name, names_of(context.session)) or "") end
+  if not command then failure.raise("method", "there is no method %s%s", shown(name), context.client.is_authorized and suggest(name, names_of(context.session)) or "") end
   return commands.run(context, command, params)
 end
 
@@ -125,16 +127,14 @@ local function respond(context, message, has_null_id)
 end
 
 local function respond_to_all(context, message, line)
-  if not is_list(message) then
-    -- an id that is null is read as none
-    return respond(context, message, type(message) == "table" and message.id == nil and line:find '"id"%s*:%s*null' ~= nil)
-  end
+  local has_null_id = null_ids(line)
+  if not is_list(message) then return respond(context, message, has_null_id[1]) end
   if #message == 0 or #message > max_batch then
     local ok, problem = pcall(failure.raise, "request", "expected 1 to %d requests in a batch, got %d", max_batch, #message)
     return not ok and encode {jsonrpc = "2.0", id = null, error = failure.of(problem)}
   end
   local responses = {}
-  for _, one in ipairs(message) do responses[#responses + 1] = respond(context, one) end
+  for i, one in ipairs(message) do responses[#responses + 1] = respond(context, one, has_null_id[i]) end
   if #responses > 0 then return "[" .. table.concat(responses, ",") .. "]" end
 end
 
@@ -155,6 +155,13 @@ function rpc.notify(client, method, params)
   client:send(encode {jsonrpc = "2.0", method = method, params = values.of(params)} .. "\n")
 end
 
+-- the message of a line; what is not UTF-8 could not be sent back, as the id of a response for instance
+local function decoded(line)
+  local valid, at = utf8.len(line)
+  if not valid then failure.raise("parse", "byte %d is not UTF-8", at) end
+  return clench.json.decode(line)
+end
+
 --- Answers a line.
 function rpc.answer(server, client, line)
   local function reply(text)
@@ -162,7 +169,7 @@ function rpc.answer(server, client, line)
     if (client.wrong_tokens or 0) >= max_wrong_tokens then client:finish "wrong tokens" end
   end
   if not line:find "%S" then return end
-  local ok, message = pcall(clench.json.decode, line)
+  local ok, message = pcall(decoded, line)
   if not ok then
     if is_stopped(message) then error(message, 0) end
     local problem = failure.of(message)

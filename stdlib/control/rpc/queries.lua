@@ -1,5 +1,6 @@
 --- Read-only methods of JSON-RPC: what a world and its bodies and robots are, by address.
 local arguments = require "clench.session.arguments"
+local described = require "clench.described"
 local failure = require "clench.control.rpc.failure"
 local queries = {}
 
@@ -23,6 +24,11 @@ local function thing_of(context, address)
   return find(context, address)
 end
 
+-- a JSON object where a list is expected
+local function check_list(name, value)
+  if type(value) ~= "table" or #value == 0 and next(value) ~= nil then failure.raise("params", "%s: expected a list, got %s", name, described(value)) end
+end
+
 local function field_of(thing, field)
   local value = thing[field]  -- an error names what is near
   if type(value) == "function" then failure.raise("params", "%s.%s is a method, and no field", clench.type(thing), field) end
@@ -30,6 +36,7 @@ local function field_of(thing, field)
 end
 
 local function check_names(fields)
+  check_list("fields", fields)
   for i, field in ipairs(fields) do
     if type(field) ~= "string" then failure.raise("params", "fields[%d]: expected a string", i) end
   end
@@ -47,6 +54,7 @@ add("get", "Fields of the world, of a body or of a robot, by their names in scri
     function(context, args) return read_fields(context, args.of, args.fields) end)
 
 add("read", "Fields of several things in one call.", {{name = "items", type = "table", text = "a list of {of, fields}"}}, function(context, args)
+  check_list("items", args.items)
   local out = {}
   for i, item in ipairs(args.items) do
     if type(item) ~= "table" or type(item.fields) ~= "table" then failure.raise("params", "items[%d]: expected {of, fields}", i) end
@@ -77,6 +85,13 @@ add("world.list", "Addresses of bodies and robots.", {}, function(context)
   return {robots = world.robots, objects = world.objects, obstacles = world.obstacles, bodies = world.bodies}
 end)
 
+-- two things, of which either may be left out
+local function pair_of(context, args)
+  local a, b = find(context, args.a), find(context, args.b)
+  if a == nil then return b end
+  return a, b
+end
+
 -- every contact once: of the two bodies that list it, the first in the world
 local function all_contacts(world)
   local out, seen = {}, {}
@@ -91,14 +106,12 @@ end
 
 add("world.contacts", "Contacts between two things, of one, or of all.", {a, b}, function(context, args)
   local world = world_of(context)
-  if args.a == nil then
-    return all_contacts(world)
-  end
-  return world:contacts(find(context, args.a), find(context, args.b))
+  if args.a == nil and args.b == nil then return all_contacts(world) end
+  return world:contacts(pair_of(context, args))
 end)
 
 add("world.colliding", "Pairs of bodies that collide.", {a, b}, function(context, args)
-  return world_of(context):colliding(find(context, args.a), find(context, args.b))
+  return world_of(context):colliding(pair_of(context, args))
 end)
 
 add("world.distance", "Distance of two things [m], and the closest points.", {a, b}, function(context, args)
@@ -117,8 +130,8 @@ add("world.hash", "Equal for worlds in the same state.", {}, function(context) r
 
 add("world.average_contacts", "What presses on each of some bodies after the last step.",
     {{name = "links", type = "table", text = "addresses"}}, function(context, args)
-      local links = {}
-      for i, address in ipairs(args.links) do links[i] = arguments.find_body(context.session, address) end
+      local links = arguments.find_all(context.session, "links", args.links)
+      for i, thing in ipairs(links) do links[i] = arguments.find_body(context.session, thing) end
       return world_of(context):average_contacts(links)
     end)
 

@@ -9,6 +9,7 @@ local max_seconds = 0.1  -- of simulated time in one request, during which no ot
 -- calls apply(robot, values) for each robot of {address: values}
 local function each_robot(session, name, given, apply)
   for address, values in pairs(given or {}) do
+    if type(address) ~= "string" then failure.raise("params", "%s: expected an object of numbers by robot, got a list", name) end
     if type(values) ~= "table" then failure.raise("params", "%s: expected numbers of %s", name, tostring(address)) end
     apply(arguments.find_robot(session, address), values)
   end

@@ -1,6 +1,7 @@
 --- Commands of the Element menu: on bodies and robots by address, or on the selection.
 local arguments = require "clench.session.arguments"
 local conditions = require "clench.session.conditions"
+local raise = require "clench.raise"
 local script = require "clench.session.script"
 
 local body = {name = "body", type = "body", text = "address of a body or robot"}
@@ -41,7 +42,10 @@ local function names_of(list) return (lines_for(list, script.name_of):gsub("\n",
 -- arguments of set_collision: without bodies for the complete world, for two bodies their pair, otherwise each body with everything
 local function collision_calls(session, args)
   local list = args.body == nil and session.selection or arguments.find_several(session, args.body)
-  if args.other ~= nil then list = {list[1], arguments.find(session, args.other)} end
+  if args.other ~= nil then
+    if #list ~= 1 then raise(("session: body.collisions: other: expected one body beside it, got %d"):format(#list)) end
+    list = {list[1], arguments.find(session, args.other)}
+  end
   local on = args.on
   if on == nil then on = not session.world:may_collide(list[1], #list == 2 and list[2] or nil) end
   if #list == 0 or #list == 2 then return {{on, table.unpack(list)}} end

@@ -81,7 +81,7 @@ return {
          {{name = "keep", type = "boolean", optional = true, text = "true: keeps the part of the posture that no eigengrasp describes"},
           {name = "fixed", type = "table", optional = true, text = "numbers of the amplitudes that keep their values"}}),
   caller("virtual_contacts", "Virtual Contacts…", "find_virtual_contacts", nil,
-         {{name = "count_per_link", type = "integer", min = 1, max = 1000, optional = true, text = "number of contacts on each link"},
+         {{name = "count_per_link", type = "integer", min = 1, max = 100, optional = true, text = "number of contacts on each link"},
           {name = "palm", type = "boolean", optional = true, text = "true: also on the palm"},
           {name = "object_material", type = "string", optional = true, text = "material to be grasped"}}),
   {name = "grasp.save_posture", label = "Save Posture", menu = "Grasp", shortcut = "s", enabled = conditions.hand, reads = true, parameters = {hand},

@@ -12,9 +12,7 @@ return {
   {name = "world.select", label = "Select", enabled = conditions.world, reads = true,
    parameters = {{name = "addresses", type = "table", text = "addresses of bodies and robots"}},
    run = function(session, args)
-     local selection = {}
-     for i, address in ipairs(args.addresses) do selection[i] = arguments.find(session, address) end
-     session.selection = selection
+     session.selection = arguments.find_all(session, "addresses", args.addresses)
      chosen(session)
    end},
   {name = "grasp.select_hand", label = "Select Hand…", menu = "Grasp", enabled = conditions.world, reads = true,

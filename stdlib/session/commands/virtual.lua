@@ -11,7 +11,7 @@ local function name_of(session, args) return script.name_of(arguments.find_robot
 
 return {
   {name = "grasp.find_virtual", label = "Find Virtual Contacts", menu = "Grasp", enabled = conditions.hand,
-   parameters = {hand, {name = "count_per_link", type = "integer", min = 1, max = 1000, default = 1, text = "number of contacts on each link"}},
+   parameters = {hand, {name = "count_per_link", type = "integer", min = 1, max = 100, default = 1, text = "number of contacts on each link"}},
    run = function(session, args)
      local robot = arguments.find_robot(session, args.hand)
      robot.virtual_contacts = robot:find_virtual_contacts {count_per_link = args.count_per_link}

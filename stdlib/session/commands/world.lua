@@ -3,6 +3,7 @@ local conditions = require "clench.session.conditions"
 local history = require "clench.session.history"
 local raise = require "clench.raise"
 local script = require "clench.session.script"
+local with_ending = require "clench.session.with_ending"
 
 local path = {name = "path", type = "string", text = "a file"}
 local options = {name = "options", type = "table", optional = true, text = "options of the function that reads it"}
@@ -30,8 +31,6 @@ local function save(session, to)
   session.path, session.saved_at = to, session.history.done[#session.history.done]
   return to
 end
-
-local function with_ending(name, ending) return name:match "%.[^./]+$" and name or name .. ending end
 
 return {
   {name = "world.new", label = "New", menu = "File", shortcut = "ctrl+n", run = function(session) history.take(session, clench.world()) session.path = nil end,

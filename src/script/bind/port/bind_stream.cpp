@@ -229,13 +229,36 @@ int save_secret(lua_State* L) {
   return 0;
 }
 
-// canonical(path): the absolute path without links, as far as it exists
+// The path with its first link replaced by the link's target; the path itself if it has none. Of a
+// path without links to what exists, that is a link to nothing, which writing would follow.
+static std::filesystem::path through_link(const std::filesystem::path& path) {
+  std::filesystem::path before, after;
+  for (const auto& part : path) {
+    const auto here = before / part;
+    if (!after.empty()) {
+      after /= part;
+    } else if (std::filesystem::is_symlink(std::filesystem::symlink_status(here))) {
+      after = before / std::filesystem::read_symlink(here);
+    } else {
+      before = here;
+    }
+  }
+  return after.empty() ? path : after;
+}
+
+// canonical(path): the absolute path without links, also without those that lead to nothing
 int canonical_path(lua_State* L) {
   const std::string path = check_string(L, 1, "path");
-  std::error_code code;
-  const auto found = std::filesystem::weakly_canonical(path, code);
-  if (code) fail(ErrorKind::file, "{}: {}", path, code.message());
-  return push(L, found.string());
+  constexpr int most_links = 40;
+  std::filesystem::path next = path;
+  for (int i = 0; i < most_links; ++i) {
+    std::error_code code;
+    const auto found = std::filesystem::weakly_canonical(next, code);
+    if (code) fail(ErrorKind::file, "{}: {}", path, code.message());
+    next = through_link(found);
+    if (next == found) return push(L, found.string());
+  }
+  fail(ErrorKind::file, "{}: too many links", path);
 }
 
 }  // namespace clench
