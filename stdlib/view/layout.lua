@@ -1,5 +1,6 @@
 --- The arrangement of tool bar, panels and status bar around the picture.
 local autosave = require "clench.view.autosave"
+local compare = require "clench.view.compare"
 local context = require "clench.view.context"
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
@@ -211,6 +212,7 @@ function layout.draw(view, ui)
   draw_bottom(view, ui, 0, bottom, width, bottom_height)
   draw_status(view, ui, height - status_height, width, status_height)
   dialog.draw(view, ui)
+  compare.draw(view, ui)
   draw_question(view, ui)
   draw_help(view, ui)
 end
