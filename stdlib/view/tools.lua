@@ -3,6 +3,7 @@
 local camera = require "clench.view.camera"
 local context = require "clench.view.context"
 local drags = require "clench.view.drags"
+local frames = require "clench.view.frames"
 local handles = require "clench.view.handles"
 local joint_handles = require "clench.view.joint_handles"
 local manipulator = require "clench.view.manipulator"
@@ -137,12 +138,18 @@ local function draw_handles(view, ui)
   handles.draw(ui, list, hovered)
 end
 
---- Outlines what is selected, and draws the manipulator and the highlighted contact.
+local function draw_axes(view, ui)
+  if not view.shows_axes then return end
+  for _, thing in ipairs(view.session.selection) do frames.draw(view, ui, replay.shown(view, thing).pose) end
+end
+
+--- Outlines what is selected, and draws its axes, the manipulator and the highlighted contact.
 function tools.draw(view, ui)
   draw_highlight(view, ui)
   draw_handles(view, ui)
   outline.draw(view, ui)
   measure.draw(view, ui)
+  draw_axes(view, ui)
   replay.draw(view, ui)
 end
 

@@ -134,7 +134,7 @@ local function draw_world(self, ui)
   local world = self.session.world
   if not world then return end
   if self.shown_world ~= world then
-    self.shown_world, self.home_camera, self.measured, self.compared, self.gallery = world, nil, {}, nil, nil
+    self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author = world, nil, {}, nil, nil, nil
     self:home()
   end
   local c = self.camera
