@@ -2,6 +2,7 @@
 --- steps.
 local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
+local recorded = require "clench.session.recorded"
 local script = require "clench.session.script"
 local playback = {}
 
@@ -29,6 +30,7 @@ end
 local function turn(session, playing)
   local ok, problem = pcall(catch_up, playing, session.world)
   if ok then
+    recorded.check(session)
     session:emit("changed", {playing = true})
     return
   end
@@ -43,8 +45,12 @@ function playback.start(session, speed)
   local loop = clench.loop
   local playing = {began = loop.time(), speed = speed, step = session.world.time_step, steps = 0, skipped = 0}
   session:begin_gesture("Play", function() return playing.steps > 0 and script.steps(playing.steps, playing.step) or "" end,
-                        function() session.playing = nil end)
+                        function()
+                          session.playing = nil
+                          recorded.stop(session)
+                        end)
   session.playing = playing
+  recorded.start(session)
   loop.spawn(function()
     while session.playing == playing do
       turn(session, playing)

@@ -1,5 +1,6 @@
 --- The arrangement of tool bar, panels and status bar around the picture.
 local autosave = require "clench.view.autosave"
+local compare = require "clench.view.compare"
 local context = require "clench.view.context"
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
@@ -9,9 +10,10 @@ local selection = require "clench.view.selection"
 local layout = {}
 
 local panel_width, bottom_height, bar_height = 264, 190, 36  -- [pixels]
+local tall_share = 0.72  -- of the height of its column
 local user_panels = {}  -- that scripts have added, by name and in order
 
-local own_panels = {"tree", "quality", "inspector", "jobs", "eigengrasps", "wrench_space", "friction", "virtual_contacts", "forces", "display", "console", "history", "gallery", "plots"}
+local own_panels = {"tree", "quality", "inspector", "jobs", "eigengrasps", "wrench_space", "friction", "virtual_contacts", "forces", "author", "display", "console", "time_line", "history", "gallery", "plots"}
 
 --- The panels of a view: its own, and those of the user.
 function layout.panels()
@@ -58,12 +60,17 @@ local function draw_tabs(view, ui, name, list, rect)
   end)
 end
 
+-- the panel of a window that shows one at a time
+local function front_of(view, place, list)
+  for _, panel in ipairs(list) do
+    if panel.name == view.front[place] then return panel end
+  end
+  return list[1]
+end
+
 -- panels in one window, one shown at a time: buttons in as many rows as they need
 local function draw_strip(view, ui, place, list, rect)
-  local front = list[1]
-  for _, panel in ipairs(list) do
-    if panel.name == view.front[place] then front = panel end
-  end
+  local front = front_of(view, place, list)
   rect.title = false
   ui:window(place, rect, function(ui)
     local left = 0
@@ -87,10 +94,16 @@ local function draw_column(view, ui, place, x, y, width, height)
   end
   local count = #rows + (#tabs > 0 and 1 or 0)
   local each = count > 0 and height / count or 0
+  -- a tall panel leaves the others less
+  local shared = height - #rows * each
+  if #tabs > 0 and #rows > 0 and front_of(view, place, tabs).tall then
+    shared = math.max(shared, height * tall_share)
+    each = (height - shared) / #rows
+  end
   for i, panel in ipairs(rows) do
     ui:window(panel.name, {x = x, y = y + (i - 1) * each, width = width, height = each}, function(ui) draw_panel(view, ui, panel) end)
   end
-  if #tabs > 0 then draw_strip(view, ui, place, tabs, {x = x, y = y + #rows * each, width = width, height = each}) end
+  if #tabs > 0 then draw_strip(view, ui, place, tabs, {x = x, y = y + #rows * each, width = width, height = shared}) end
 end
 
 local function draw_bottom(view, ui, x, y, width, height)
@@ -211,6 +224,7 @@ function layout.draw(view, ui)
   draw_bottom(view, ui, 0, bottom, width, bottom_height)
   draw_status(view, ui, height - status_height, width, status_height)
   dialog.draw(view, ui)
+  compare.draw(view, ui)
   draw_question(view, ui)
   draw_help(view, ui)
 end

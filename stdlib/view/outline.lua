@@ -1,5 +1,6 @@
 --- Outlines of what is selected: around each body the convex outline of its surface on the screen.
 local camera = require "clench.view.camera"
+local replay = require "clench.view.replay"
 local outline = {}
 
 local direction_count = 96
@@ -80,7 +81,7 @@ end
 local function draw_body(view, ui, body)
   local mesh = body.visual_mesh or body.mesh
   if not mesh then return end
-  local pose, pixels = body.pose, {}
+  local pose, pixels = replay.shown(view, body).pose, {}
   for _, point in ipairs(points_of(mesh)) do
     local x, y = camera.project(view.camera, ui.size, pose * point)
     if not x then return end

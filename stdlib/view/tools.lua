@@ -3,12 +3,14 @@
 local camera = require "clench.view.camera"
 local context = require "clench.view.context"
 local drags = require "clench.view.drags"
+local frames = require "clench.view.frames"
 local handles = require "clench.view.handles"
 local joint_handles = require "clench.view.joint_handles"
 local manipulator = require "clench.view.manipulator"
 local measure = require "clench.view.measure"
 local navigation = require "clench.view.navigation"
 local outline = require "clench.view.outline"
+local replay = require "clench.view.replay"
 local selection = require "clench.view.selection"
 local tools = {}
 
@@ -19,7 +21,8 @@ function tools.pick(view, x, y)
   local world = view.session.world
   if not world then return nil end
   local origin, direction = camera.ray(view.camera, view.ui.size, x, y)
-  return world:raycast(origin, direction)
+  local hit = replay.world(view):raycast(origin, direction)
+  return hit and replay.to_live(view, hit)
 end
 
 -- what a drag of a body moves: its robot, or the robot that carries that robot's mount; the body itself otherwise
@@ -33,7 +36,7 @@ end
 --- Handles over the picture for the current tool and selection: name, pixel x and y.
 ---@return table[] handles
 function tools.handles(view)
-  if not view.session.world then return {} end
+  if not view.session.world or view.replay then return {} end
   local list = joint_handles.handles(view)
   return #list > 0 and list or manipulator.handles(view)
 end
@@ -59,6 +62,7 @@ local function begin_press(view, mouse)
   if view.ui:key_down(342) or tool == "Camera" then return {kind = mouse.left.double and "seek" or "camera"} end
   if tool == "Measure" then return {kind = "measure"} end
   if tool == "Select" then return {kind = "select", x = mouse.x, y = mouse.y} end
+  if view.replay then return {kind = "camera"} end  -- recorded states cannot be changed
   local drag = begin_drag(view, mouse.x, mouse.y)
   return drag and {kind = "drag", drag = drag} or {kind = "camera"}
 end
@@ -134,12 +138,19 @@ local function draw_handles(view, ui)
   handles.draw(ui, list, hovered)
 end
 
---- Outlines what is selected, and draws the manipulator and the highlighted contact.
+local function draw_axes(view, ui)
+  if not view.shows_axes then return end
+  for _, thing in ipairs(view.session.selection) do frames.draw(view, ui, replay.shown(view, thing).pose) end
+end
+
+--- Outlines what is selected, and draws its axes, the manipulator and the highlighted contact.
 function tools.draw(view, ui)
   draw_highlight(view, ui)
   draw_handles(view, ui)
   outline.draw(view, ui)
   measure.draw(view, ui)
+  draw_axes(view, ui)
+  replay.draw(view, ui)
 end
 
 return tools

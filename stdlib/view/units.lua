@@ -22,7 +22,8 @@ end
 --- A value with its unit, for display.
 function units.text(view, value, unit)
   local factor, name, format = units.of(view, unit)
-  return (format .. "%s"):format(value * factor, name == "1" and "" or name == "°" and name or " " .. name)
+  local number = format:format(value * factor):gsub("^%-([0.]+)$", "%1")  -- no -0.000
+  return number .. (name == "1" and "" or name == "°" and name or " " .. name)
 end
 
 --- Menu entries that choose the units.

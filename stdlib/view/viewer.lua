@@ -17,6 +17,7 @@ local navigation = require "clench.view.navigation"
 local palette = require "clench.view.palette"
 local preferences = require "clench.view.preferences"
 local raise = require "clench.raise"
+local replay = require "clench.view.replay"
 local tools = require "clench.view.tools"
 local user_files = require "clench.view.user_files"
 
@@ -133,19 +134,19 @@ local function draw_world(self, ui)
   local world = self.session.world
   if not world then return end
   if self.shown_world ~= world then
-    self.shown_world, self.home_camera, self.measured = world, nil, {}
+    self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author = world, nil, {}, nil, nil, nil
     self:home()
   end
   local c = self.camera
   local options = {eye = c.eye, target = c.target, up = c.up, field_of_view = c.field_of_view, orthographic = c.orthographic}
   for name, value in pairs(self.display) do options[name] = value end
-  local shown = self.shown_forces
+  local shown = not self.replay and self.shown_forces or nil
   if shown and shown.stamp ~= self.stamp then
     -- forces are those of one state of the world
     if world:hash() == shown.hash then shown.stamp = self.stamp else self.shown_forces, shown = nil, nil end
   end
   if shown then options.forces = shown.forces end
-  ui:show(world, options)
+  ui:show(replay.world(self), options)
 end
 
 -- a window follows the clock, by which double clicks are told from single ones
@@ -163,7 +164,9 @@ function Viewer:frame()
   if not self.in_loop and not loop_task.thread then clench.loop.run(0) end
   self.needs_frame = false
   self.frames = self.frames + 1
-  self.ui:frame(time_since_last(self), function(ui)
+  local passed = time_since_last(self)
+  replay.advance(self, passed)
+  self.ui:frame(passed, function(ui)
     draw_world(self, ui)
     if self.panels_visible then
       tools.draw(self, ui)
@@ -278,7 +281,10 @@ return function(options)
   for _, event in ipairs {"changed", "progress", "result"} do
     view.subscriptions[#view.subscriptions + 1] = session:subscribe(event, function() view:changed() end)
   end
-  view.subscriptions[#view.subscriptions + 1] = session:subscribe("changed", function(event) echo.changed(view, event) end)
+  view.subscriptions[#view.subscriptions + 1] = session:subscribe("changed", function(event)
+    if not event.selection then replay.leave(view) end
+    echo.changed(view, event)
+  end)
   view.subscriptions[#view.subscriptions + 1] = session:subscribe("diagnostic", function(d) view:print(tostring(d.message or d.text or d), d.severity) end)
   if options.window then
     local settings, state = user_files.settings(), user_files.state()

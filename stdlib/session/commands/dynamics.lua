@@ -1,12 +1,22 @@
 --- Commands of the Dynamics menu: runs the simulation at once, in steps or in real time, and manages a stack of states.
 local conditions = require "clench.session.conditions"
 local playback = require "clench.session.playback"
+local recorded = require "clench.session.recorded"
 local script = require "clench.session.script"
+
+-- runs the world and records it
+local function run(session, args)
+  recorded.start(session, args.seconds)
+  local _ <close> = setmetatable({}, {__close = function() recorded.stop(session) end})
+  session.world:run(args.seconds)
+end
+
+local function has_recording(session) return session.recording ~= nil and #session.recording.times > 0, "no run was recorded" end
 
 return {
   {name = "dynamics.run", label = "Run…", menu = "Dynamics", enabled = conditions.world, long = true,
    parameters = {{name = "seconds", type = "number", min = 0, max = 1e6, unit = "s", default = 1, text = "simulated time"}},
-   run = function(session, args) session.world:run(args.seconds) end,
+   run = run,
    script = function(_, args) return ("world:run(%s)"):format(script.literal(args.seconds)) end},
   {name = "dynamics.step", label = "Step", menu = "Dynamics", enabled = conditions.world,
    parameters = {{name = "count", type = "integer", min = 1, max = 1e9, default = 1, text = "number of steps"}},
@@ -26,4 +36,11 @@ return {
    run = function(session) table.insert(session.stack, session.world:snapshot()) end, script = function() return "world:push()" end},
   {name = "dynamics.pop", label = "Pop State", menu = "Dynamics", enabled = function(session) return #session.stack > 0, "no state was pushed" end,
    run = function(session) session.world:restore(table.remove(session.stack)) end, script = function() return "world:pop()" end},
+  {name = "dynamics.save_film", label = "Save Film…", menu = "Dynamics", enabled = has_recording, reads = true,
+   parameters = {{name = "path", type = "string", text = "a file: .html, a page that plays in 3-D; .gif; .mp4; or .png, one picture per state"},
+                 {name = "options", type = "table", optional = true, text = "options of recording:save"}},
+   run = function(session, args)
+     session.recording:save(args.path, args.options)
+     return args.path
+   end},
 }

@@ -8,7 +8,7 @@ end
 
 local function sample(view)
   local quality = view.quality
-  if not quality or view.plotted == view.stamp then return end
+  if not quality or view.replay or view.plotted == view.stamp then return end
   view.plotted = view.stamp
   local curves = view.curves
   add(curves.epsilon, quality.measures and quality.measures.epsilon or 0)

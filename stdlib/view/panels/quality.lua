@@ -1,4 +1,5 @@
 --- Measures of the current grasp that the user has chosen, and its contacts with their forces; both follow what moves.
+local replay = require "clench.view.replay"
 local units = require "clench.view.units"
 local gray = {0.5, 0.5, 0.5}
 
@@ -10,10 +11,11 @@ end
 local function refresh(view)
   local session = view.session
   if not (session.hand and session.object) then return nil end
-  local contacts = session.world:contacts(session.hand, session.object)
+  local hand, object = replay.shown(view, session.hand), replay.shown(view, session.object)
+  local contacts = replay.world(view):contacts(hand, object)
   local quality = {contacts = contacts, measures = {}, errors = {}}
   if #contacts == 0 then return quality end
-  local ok, grasp = pcall(clench.grasp, session.hand, session.object)
+  local ok, grasp = pcall(clench.grasp, hand, object)
   if not ok then
     quality.error = tostring(grasp)
     return quality

@@ -1,0 +1,146 @@
+-- The time line of the viewer: recorded runs and their replay, driven by synthetic input.
+local test, clench = require "test", require "clench"
+local loop = clench.loop
+
+local function open()
+  local session = clench.session()
+  session:open("worlds/barrett_mug.wld", {root = "."})
+  session:run "grasp.autograsp"
+  local view = clench.view.offscreen {session = session, size = {1070, 700}}
+  view:frame()
+  view:frame()  -- tabs are laid out in the second frame
+  view:click_label "Time Line"
+  return session, view
+end
+
+-- runs a command and shows its result
+local function run(session, view, name, args)
+  session:run(name, args)
+  view:frame()
+end
+
+local function item(view, label)
+  view:frame()
+  for _, found in ipairs(view:items()) do
+    if found.label == label then return found end
+  end
+  error("no widget " .. label)
+end
+
+local function slider(view)
+  for _, found in ipairs(view:items()) do
+    if found.kind == "slider" and found.window == item(view, "Time Line").window then return found end
+  end
+end
+
+test("dynamics that play are recorded: one step of undo, and the script leads to the same world", function(t)
+  local session, view = open()
+  local before, steps = session.world:hash(), #session.history.done
+  view:click_label "Play Dynamics"
+  local last = loop.time() + 60
+  while not (session.recording and #session.recording.times >= 5) and loop.time() < last do loop.run(0.01) end
+  view:click_label "Pause Dynamics"
+  t.equal(session.playing, nil)
+  t.equal(#session.history.done, steps + 1)
+  local after = session.world:hash()
+  local times = session.recording.times
+  t.close(times[1], 0, 1e-12)
+  for i = 2, #times do t.close(times[i] - times[i - 1], 1 / 30, session.world.time_step + 1e-9) end
+  t.equal(load(session:script() .. " return world")():hash(), after)
+  view:key "ctrl+z"
+  t.equal(session.world:hash(), before)
+  -- what was recorded can be replayed after the undo, too
+  view:click_label "Replay"
+  t.ok(view.replay ~= nil)
+  t.equal(session.world:hash(), before)
+  view:close()
+end)
+
+-- states of the same run, stepped by a loop of the script
+local function states_of(session, seconds, times)
+  local world = session.world:clone()
+  local film = world:record {rate = 30}
+  world:run(seconds)
+  local hashes = {}
+  film:each(function(state, i, time)
+    hashes[i] = state:hash()
+    assert(math.abs(time - times[i]) < 1e-9)
+  end)
+  return hashes
+end
+
+test("the picture shows recorded states bit-exactly, and the world stays as it is", function(t)
+  local session, view = open()
+  session.object.velocity = {linear = {0, 0, 0.3}, angular = {0, 0, 0}}
+  local start = session.world:clone()
+  run(session, view, "dynamics.run", {seconds = 0.2})
+  local times, live = session.recording.times, session.world:hash()
+  t.equal(#times, 7)
+  local hashes = states_of({world = start}, 0.2, times)
+  view:click_label "|<"
+  t.equal(view.replay.world:hash(), hashes[1])
+  view:click_label ">"
+  view:click_label ">"
+  t.equal(view.replay.index, 3)
+  t.equal(view.replay.world:hash(), hashes[3])
+  view:click_label "<"
+  t.equal(view.replay.world:hash(), hashes[2])
+  view:click_label ">|"
+  t.equal(view.replay.world:hash(), hashes[7])
+  local bar = slider(view)
+  view:click(bar.x + 3, bar.y + bar.height / 2)
+  t.equal(view.replay.index, 1)
+  t.equal(session.world:hash(), live)
+  -- the picture is that of the state, and its panels follow it
+  local shown = view:screenshot {panels = false}
+  t.equal(shown == clench.render(view.replay.world, {size = {1070, 700}, camera = view.camera, quality = "draft"}), true)
+  view:frame()
+  t.equal(view.quality.contacts[1].body, view.replay.world.objects[1])
+  view:click_label "Present"
+  t.equal(view.replay, nil)
+  view:frame()
+  t.equal(#view.quality.contacts, #session.world:contacts(session.hand, session.object))
+  view:close()
+end)
+
+test("a replay plays at its speed and ends at the last state; any change shows the world again", function(t)
+  local session, view = open()
+  run(session, view, "dynamics.run", {seconds = 0.3})
+  view:click_label "Replay"
+  local first = view.replay.index
+  for _ = 1, 6 do view:frame() end
+  t.ok(view.replay.index > first)
+  for _ = 1, 30 do view:frame() end
+  t.equal(view.replay.index, #session.recording.times)
+  t.equal(view.replay.plays, false)
+  -- recorded states are not dragged
+  local mug, live = session.object, session.world:hash()
+  view:tool "Translate"
+  local x, y = view:project(mug.pose * mug.com)
+  t.equal(view:pick(x, y).body, mug)
+  view:drag(x, y, x + 60, y)
+  t.equal(session.world:hash(), live)
+  session:run "grasp.open"
+  t.equal(view.replay, nil)
+  session:run "world.new"
+  view:frame()
+  t.equal(item(view, "Replay").enabled, false)
+  view:close()
+end)
+
+test("a recorded run is saved as a film; without one there is nothing to save", function(t)
+  local session, view = open()
+  t.fails(function() session:run("dynamics.save_film", {path = "run.html"}) end, "no run was recorded")
+  t.equal(item(view, "Save Film…").enabled, false)
+  run(session, view, "dynamics.run", {seconds = 0.1})
+  local path = os.tmpname() .. ".html"
+  view:click_label "Save Film…"
+  view:frame()
+  view.dialogs["dynamics.save_film"].path = path
+  view:click_label "OK"
+  local file <close> = assert(io.open(path))
+  t.ok(#file:read "a" > 100000)
+  os.remove(path)
+  t.fails(function() session:run("dynamics.save_film", {path = "run.txt"}) end, "ends in .html, .gif, .mp4 or .png")
+  view:close()
+end)
