@@ -8,10 +8,9 @@ local values = require "clench.control.rpc.values"
 local commands = {}
 
 local apply = "control.apply"
-local runs_the_world = {["dynamics.run"] = true, ["dynamics.step"] = true}
 
 --- Does a command take so long that it runs as a job?
-function commands.is_long(command) return command.script ~= nil and (command.long == true or runs_the_world[command.name] == true) end
+function commands.is_long(command) return command.script ~= nil and command.long == true end
 
 --- Prepares the session of a server: registers the command by which results of jobs become edits, and counts edits in `server.edits`.
 ---@return fun() # ends the count
@@ -67,6 +66,7 @@ local function run_long(context, command, args)
   local server = context.server
   local before, edits, lines = world:hash(), server.edits, command.script(session, args)
   local job = clench.job(work, {args = {world, command.name, args}, name = command.name})
+  if context.on_job then context.on_job(job) end
   local number = jobs.keep(context, job, function(kept)
     if kept.job.state ~= "done" then return end
     local made = kept.job:result()
