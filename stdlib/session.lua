@@ -72,7 +72,7 @@ end
 --- name: "group.verb"; run(session, args); enabled(session): can it run now? If not, it may return a reason as its second value; parameters: a list of {name =,
 --- type =, unit =, min =, max =, default =, optional =, text =}; reads: it changes nothing, and is neither logged nor undone; script(session, args): lines of
 --- Lua with the same effect, logged instead of the resulting state; replace: it may replace a command of the same name; long: it may take seconds, so a server
---- runs it as a job (requires script)
+--- runs it as a job (requires script or reads)
 function Session:command(command)
   arguments.check_command(command)
   if self.commands[command.name] and not command.replace then

@@ -90,7 +90,7 @@ struct Said {
   ConvertOptions convert;
   PlanOptions plan;
   RenderVerbOptions render;
-  ServeOptions serve;
+  ServeOptions serve, mcp;
   ViewOptions view;
   std::string interactive, test_path, doc_folder, confine;
   bool check_docs = false;
@@ -202,6 +202,19 @@ static void add_serve(CLI::App& app, ServeOptions& serve) {
       trust);
 }
 
+static void add_mcp(CLI::App& app, ServeOptions& mcp) {
+  auto* verb = app.add_subcommand("mcp", "offer a world to language models, over standard streams");
+  mcp.verb = "mcp";
+  add_mcp_options(*verb, mcp.words);
+  add_world_reading(*verb, mcp.reading);
+  verb->footer(
+      "Examples:\n  clench mcp worlds/barrett_mug.wld\n"
+      "  clench mcp --control worlds/barrett_mug.wld\n\n"
+      "It is started by a program that speaks the Model Context Protocol, and ends with its input. "
+      "See docs/guide/server.md." +
+      trust);
+}
+
 static void add_view(CLI::App& app, ViewOptions& view) {
   auto* verb = app.add_subcommand("view", "show a world in a window");
   add_view_options(*verb, view.words);
@@ -233,6 +246,7 @@ static void add_all(CLI::App& app, Said& said) {
   add_plan(app, said.plan);
   add_render(app, said.render);
   add_serve(app, said.serve);
+  add_mcp(app, said.mcp);
   add_view(app, said.view);
   for (CLI::App* verb : app.get_subcommands({})) {
     if (verb->get_name() != "doc" && verb->get_name() != "describe")
@@ -278,15 +292,16 @@ static int run_verb(const CLI::App& app, Said& said) {
   for (std::string* folder :
        {&said.run.confine, &said.check.reading.confine, &said.convert.reading.confine,
         &said.plan.reading.confine, &said.render.reading.confine, &said.serve.reading.confine,
-        &said.view.reading.confine})
+        &said.mcp.reading.confine, &said.view.reading.confine})
     *folder = said.confine;
-  said.plan.quiet = said.serve.quiet = said.view.quiet = said.run.quiet;
+  said.plan.quiet = said.serve.quiet = said.mcp.quiet = said.view.quiet = said.run.quiet;
   if (app.got_subcommand("test")) return run_tests(said.test_path, said.confine, said.run.quiet);
   if (app.got_subcommand("check")) return check_files(said.check);
   if (app.got_subcommand("convert")) return convert_file(said.convert);
   if (app.got_subcommand("plan")) return plan_grasps(said.plan);
   if (app.got_subcommand("render")) return render_file(said.render);
   if (app.got_subcommand("serve")) return serve_world(said.serve);
+  if (app.got_subcommand("mcp")) return serve_world(said.mcp);
   if (app.got_subcommand("view")) return view_world(said.view);
   if (app.got_subcommand("describe")) return describe_entry(said.described, said.describe_json);
   if (app.got_subcommand("doc")) return write_docs(said.doc_folder, said.check_docs);

@@ -1,4 +1,4 @@
-// `clench serve`: its behavior and output are implemented in stdlib/host/serve.lua.
+// `clench serve` and `clench mcp`: their behavior and output are implemented in stdlib/host/serve.lua.
 #include <fmt/format.h>
 
 #include <csignal>
@@ -22,13 +22,15 @@ int serve_world(const ServeOptions& options) {
   catch_endings();
   std::signal(SIGPIPE, [](int) {});  // a closed output pipe does not end the server
   std::vector<std::string> words = words_of(options.reading);
+  words.insert(words.end(), {"verb", options.verb});
   words.insert(words.end(), options.words.begin(), options.words.end());
   const Interruptible running(state, 2);
   const auto result = state.call("host.serve", "main", words);
   std::fflush(stdout);
   // a signal is the regular end of a server
   if (running.pressed()) return 0;
-  if (!result.ok) fmt::print(stderr, "clench serve: {}\n", printable(result.error, "\n\t"));
+  if (!result.ok)
+    fmt::print(stderr, "clench {}: {}\n", options.verb, printable(result.error, "\n\t"));
   return result.ok && result.values.size() == 1 ? std::atoi(result.values[0].c_str()) : 1;
 }
 

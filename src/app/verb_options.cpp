@@ -251,9 +251,16 @@ void add_render_options(CLI::App& verb, std::vector<std::string>& words) {
   add.flag("--orthographic", "parallel projection");
 }
 
+static void add_served(const Adder& add) {
+  add("WORLD", "a world's file")->required()->check(named);
+  add("--folder", "requests may read and write files below this folder; default: none")
+      ->type_name("FOLDER")
+      ->check(CLI::ExistingDirectory);
+}
+
 void add_serve_options(CLI::App& verb, std::vector<std::string>& words) {
   const Adder add{verb, words};
-  add("WORLD", "a world's file")->required()->check(named);
+  add_served(add);
   add("--port", "TCP port; 0: the system chooses one; default: 4765")
       ->type_name("N")
       ->check(whole_number(0, 65535));
@@ -265,9 +272,12 @@ void add_serve_options(CLI::App& verb, std::vector<std::string>& words) {
       ->type_name("FILE")
       ->check(named);
   add.flag("--no-token", "any program of this machine may control the world");
-  add("--folder", "requests may read and write files below this folder; default: none")
-      ->type_name("FOLDER")
-      ->check(CLI::ExistingDirectory);
+}
+
+void add_mcp_options(CLI::App& verb, std::vector<std::string>& words) {
+  const Adder add{verb, words};
+  add_served(add);
+  add.flag("--control", "also offer tools that change the world; default: only those that do not");
 }
 
 void add_view_options(CLI::App& verb, std::vector<std::string>& words) {

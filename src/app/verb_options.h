@@ -15,11 +15,12 @@ void add_confine(CLI::App& verb, std::string& folder);
 void add_reading(CLI::App& verb, ReadingOptions& reading);
 void add_world_reading(CLI::App& verb, ReadingOptions& reading);  ///< only options of worlds
 
-/// Options of `clench plan`, `render`, `serve` and `view`: each given option appends its name and
+/// Options of `clench plan`, `render`, `serve`, `mcp` and `view`: each given option appends its name and
 /// its value to the words.
 void add_plan_options(CLI::App& verb, std::vector<std::string>& words);
 void add_render_options(CLI::App& verb, std::vector<std::string>& words);
 void add_serve_options(CLI::App& verb, std::vector<std::string>& words);
+void add_mcp_options(CLI::App& verb, std::vector<std::string>& words);
 void add_view_options(CLI::App& verb, std::vector<std::string>& words);
 
 }  // namespace clench

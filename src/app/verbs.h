@@ -80,12 +80,13 @@ struct PlanOptions {
 int plan_grasps(const PlanOptions& options);
 
 struct ServeOptions {
+  const char* verb = "serve";      ///< or "mcp"
   std::vector<std::string> words;  ///< as in PlanOptions
   bool quiet = false;
   ReadingOptions reading;
 };
 
-/// Serves a world to other programs, until a signal ends it.
+/// Serves a world to other programs, until a signal ends it; mcp: until its input ends.
 int serve_world(const ServeOptions& options);
 
 struct ViewOptions {

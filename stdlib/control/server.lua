@@ -5,6 +5,7 @@ local described = require "clench.described"
 local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local loop = clench.loop
+local mcp = require "clench.control.mcp"
 local new_client = require "clench.control.client"
 local new_options = require "clench.options"
 local new_port = require "clench.port.port"
@@ -44,23 +45,18 @@ local function answer_text(self, client, line)
   if reply ~= "" then client:send(reply) end
 end
 
--- the first line decides which protocol a client speaks
-local function is_rpc(client, line)
-  if client.is_rpc == nil then client.is_rpc = line:find "^%s*[%[{]" ~= nil end
-  return client.is_rpc
-end
+local text_protocol = {answer = answer_text}
 
-local function answer(self, client, line)
-  if is_rpc(client, line) then return rpc.answer(self, client, line) end
-  answer_text(self, client, line)
+function text_protocol.refuse_long(client) client:send(("Error: a line has more than %d bytes\n"):format(client.port.max_line)) end
+
+-- the first line decides which protocol a client speaks
+local function protocol_of(client, line)
+  client.protocol = client.protocol or line:find "^%s*[%[{]" and rpc or text_protocol
+  return client.protocol
 end
 
 local function refuse_long(client)
-  if client.is_rpc then
-    rpc.refuse_long(client)
-  else
-    client:send(("Error: a line has more than %d bytes\n"):format(client.port.max_line))
-  end
+  (client.protocol or text_protocol).refuse_long(client)
   client:finish "a line was too long"
 end
 
@@ -69,7 +65,7 @@ local function serve_one(self, client)
   if client.is_closed or client.is_finishing then return false end
   local line, why = client:take_line()
   if line then
-    answer(self, client, line)
+    protocol_of(client, line).answer(self, client, line)
   elseif why then
     refuse_long(client)
   elseif client.has_ended then
@@ -139,7 +135,7 @@ local function add_parent(self)
     self:close()
   end
   add(self, new_port(open_stdio()))
-  self.clients[1].is_rpc = true
+  self.clients[1].protocol = self.mcp and mcp or rpc
 end
 
 local function listen(self, where)
@@ -214,7 +210,9 @@ local function read_options(options)
                   max_clients = o:get "max_clients", max_line = o:get "max_line",
                   max_queue = o:get "max_queue", on_connect = o:get "on_connect", on_close = o:get "on_close"}
   local stdio = o:get "stdio"
+  server.mcp = o:get "mcp"
   o:done()
+  if server.mcp and not stdio then o:fail "mcp: expected stdio, too" end
   if stdio then
     if path ~= nil or host ~= nil then o:fail "stdio: expected either stdio, or a path, or host and port" end
     server.token = nil
@@ -233,6 +231,7 @@ end
 ---@option host? string = "127.0.0.1"  address on which it listens
 ---@option path? string  of a Unix socket, instead of host and port
 ---@option stdio? boolean = false  true: JSON-RPC over standard input and output with the program that has started this one, without a token
+---@option mcp? "read"|"control"  over standard input and output the Model Context Protocol instead; "read": tools that change nothing, "control": all
 ---@option token? string|boolean  the secret of JSON-RPC clients; one is made by default, the server's field `token`. false, on loopback: none
 ---@option folder? string  below which requests may read and write files; none by default
 ---@option max_clients? integer [1 to 1000] = 64  connected at one time

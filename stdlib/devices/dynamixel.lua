@@ -52,6 +52,22 @@ local function exchange(self, bytes, ids)
   return answers
 end
 
+-- Sends a fast sync read, and returns the answers by id: of all motors, or of none.
+local function exchange_fast(self, bytes, ids, size)
+  self.port:discard()
+  local ok, why = self.port:write(bytes, self.timeout)
+  if not ok then return nil, why end
+  local received, last = "", loop.time() + self.timeout
+  while true do
+    local answers, damaged = packet.decode_fast(received, ids, size)
+    if answers or damaged then return answers or {} end
+    local more
+    more, why = self.port:read_some(math.max(0, last - loop.time()))
+    if not more then return {}, why end
+    received = received .. more
+  end
+end
+
 local function check_lost(self, why, doing)
   if why == "closed" or why == "unplugged" then device.fail(subject, self.port, why, doing) end
 end
@@ -73,14 +89,22 @@ end
 
 local function register_of(name) return table.unpack(registers[name] or raise(("%s: there is no register '%s'"):format(subject, tostring(name)))) end
 
+-- answers of some motors to one question for a register
+local function ask_some(self, ids, address, size, is_fast)
+  local list = {}
+  for i, id in ipairs(ids) do list[i] = string.char(id) end
+  local parameters = string.pack("<I2 I2", address, size) .. table.concat(list)
+  if is_fast then return exchange_fast(self, packet.encode(packet.broadcast, "fast_sync_read", parameters), ids, size) end
+  return exchange(self, packet.encode(packet.broadcast, "sync_read", parameters), ids)
+end
+
 -- a register of all motors, by id; signed
 local function read_all(self, name)
   local address, size = register_of(name)
   local missing, values = {table.unpack(self.ids)}, {}
-  for _ = 1, self.attempts do
-    local list = {}
-    for i, id in ipairs(missing) do list[i] = string.char(id) end
-    local answers, why = exchange(self, packet.encode(packet.broadcast, "sync_read", string.pack("<I2 I2", address, size) .. table.concat(list)), missing)
+  for attempt = 1, self.attempts do
+    -- on a bad line single packets come through when one of all does not
+    local answers, why = ask_some(self, missing, address, size, self.is_fast and attempt % 2 == 1)
     check_lost(self, why, "reading " .. name)
     local still = {}
     for _, id in ipairs(missing) do
@@ -95,6 +119,17 @@ local function read_all(self, name)
     if #missing == 0 then return values end
   end
   device.fail(subject, self.port, "timeout", ("motors %s: reading %s"):format(table.concat(missing, ", "), name))
+end
+
+-- do all motors answer fast sync reads? Those of old firmware do not
+local function answers_fast(self)
+  local address, size = register_of "present_position"
+  for _ = 1, 3 do
+    local answers, why = ask_some(self, self.ids, address, size, true)
+    check_lost(self, why, "fast sync read")
+    if answers and next(answers) then return true end
+  end
+  return false
 end
 
 -- writes a register of all motors at once; nobody answers
@@ -221,6 +256,7 @@ end
 -- finds all motors, reads their limits, and prepares them
 local function connect(self)
   for _, id in ipairs(self.ids) do ask(self, id, "ping", "", "ping") end
+  if self.is_fast == nil then self.is_fast = answers_fast(self) end
   local low, high = read_all(self, "min_position"), read_all(self, "max_position")
   for i, id in ipairs(self.ids) do
     self.names[i], self.low[i], self.high[i] = "motor " .. id, radians_of(low[id]), radians_of(high[id])
@@ -246,6 +282,7 @@ end
 ---@option current? integer [-2047 to 2047]  goal current of all motors, in their unit
 ---@option velocity? number [rad/s, > 0]  largest velocity on the way to goals
 ---@option watchdog? number [s, 0 to 2.54] = 2  0: none
+---@option fast? boolean  reads by fast sync read, which all motors answer with one packet; default: if they do
 ---@option timeout? number [s, > 0, <= 3600] = 0.05  for answers
 ---@option attempts? integer [1 to 1000] = 50  repetitions of what is not answered correctly
 ---@return dynamixel bus # `read_positions`, `write_positions`, `read_velocities`, `read_faults`, `set_torque`, `reset_watchdog`, `packet`, `close`
@@ -259,7 +296,7 @@ return function(options)
   local given, baud = o:raw "port", o:get "baud"
   local mode = o:raw "mode"
   local bus = {ids = check_ids(o), names = {}, low = {}, high = {}, packet = packet_of, mode = mode,
-               current = o:get "current", velocity = o:get "velocity",
+               is_fast = o:get "fast", current = o:get "current", velocity = o:get "velocity",
                watchdog = math.ceil(o:get "watchdog" / 0.02), timeout = o:get "timeout", attempts = o:get "attempts"}
   o:done()
   if mode ~= nil and not modes[mode] then o:expected("mode", "the name of an operating mode", mode) end

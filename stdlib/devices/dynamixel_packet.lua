@@ -50,4 +50,30 @@ function packet.decode(bytes, from)
   return {id = id, instruction = body:byte(1), error = body:byte(2), parameters = body:sub(3)}, at + 7 + length
 end
 
+-- of each motor in an answer to a fast sync read, beside its data: error, id and checksum
+local block_overhead = 4
+
+--- The answer of several motors to a fast sync read: one packet, without stuffed bytes, to which each motor appends a block.
+---@param ids integer[]  of the motors, in the order of the request
+---@param size integer  of the data of each [bytes]
+---@return table? answers  {error, parameters} by id; nil: it is not complete yet
+---@return boolean? damaged  it has a wrong checksum, or is not that of these motors
+function packet.decode_fast(bytes, ids, size)
+  local at = bytes:find(header, 1, true)
+  if not at then return nil end
+  local length = 1 + #ids * (size + block_overhead)
+  if #bytes < at + 6 + length then return nil end
+  local id, found_length, instruction = string.unpack("<B I2 B", bytes, at + 4)
+  local crc = string.unpack("<I2", bytes, at + 5 + length)
+  if id ~= packet.broadcast or found_length ~= length or instruction ~= packet.instructions.status or packet.crc(bytes:sub(at, at + 4 + length)) ~= crc then return nil, true end
+  local answers = {}
+  for i, wanted in ipairs(ids) do
+    local from = at + 8 + (i - 1) * (size + block_overhead)
+    local code, found = bytes:byte(from, from + 1)
+    if found ~= wanted then return nil, true end
+    answers[found] = {error = code, parameters = bytes:sub(from + 2, from + 1 + size)}
+  end
+  return answers
+end
+
 return packet

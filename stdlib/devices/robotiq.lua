@@ -1,58 +1,34 @@
 local class = require "clench.class"
-local described = require "clench.described"
 local device = require "clench.devices.device"
-local loop = clench.loop
-local modbus = require "clench.devices.modbus"
+local gripper = require "clench.devices.gripper"
 local new_options = require "clench.options"
 local raise = require "clench.raise"
 
 local subject = "devices.robotiq"
 local Robotiq = class "robotiq"
 
-local request_address, status_address = 0x03E8, 0x07D0
 local objects = {[0] = "moving", [1] = "opening", [2] = "closing", [3] = "none"}  -- where it has met an object
 
 function Robotiq:__tostring() return "Robotiq gripper at " .. self.port.name end
 
-local function send(self, action, position, speed, force)
-  modbus.write(self, request_address, string.char(action, 0, 0, position, speed, force))
-end
+local function send(self, action, position, speed, force) gripper.send(self, string.char(action, 0, 0, position, speed, force)) end
 
 local function read_status(self)
-  local status, _, fault, echo, position, current = modbus.read(self, status_address, 3):byte(1, 6)
+  local status, _, fault, echo, position, current = gripper.status(self, 3):byte(1, 6)
   return {status = status, fault = fault, echo = echo, position = position, current = current}
 end
 
 local function is_active(status) return status.status & 0x01 == 1 and status.status >> 4 & 3 == 3 end
 
--- waits until a status fulfills a condition
-local function wait_for(self, doing, condition)
-  local last = loop.time() + self.move_timeout
-  while true do
-    local status = read_status(self)
-    if condition(status) then return status end
-    if loop.time() > last then device.fail(subject, self.port, "timeout", doing) end
-    loop.sleep(self.poll)
-  end
-end
-
 --- Activates the gripper: it opens and closes once to find its ends.
 function Robotiq:activate()
   send(self, 0, 0, 0, 0)
   send(self, 1, 0, 0, 0)
-  wait_for(self, "activation", is_active)
+  gripper.wait_for(self, "activation", read_status, is_active)
 end
 
 -- 0 (open) to 255 (closed) of an opening
 local function count_of(self, opening) return math.floor(255 * (1 - opening / self.stroke) + 0.5) end
-
-local function part_of(name, value, default)
-  if value == nil then value = default end
-  if type(value) ~= "number" or not (value >= 0 and value <= 1) then
-    raise(("robotiq:move: %s: expected a part from 0 to 1, got %s"):format(name, described(value)))
-  end
-  return math.floor(255 * value + 0.5)
-end
 
 --- Moves the fingers until they have an opening, or meet an object.
 ---@param opening number  distance of the fingers [m]
@@ -62,10 +38,10 @@ end
 function Robotiq:move(opening, speed, force)
   device.check_numbers("robotiq:move", {opening}, {"opening"}, {0}, {self.stroke}, "m")
   local count = count_of(self, opening)
-  speed, force = part_of("speed", speed, 1), part_of("force", force, 0.5)
+  speed, force = gripper.byte_of("robotiq:move", "speed", speed, 1), gripper.byte_of("robotiq:move", "force", force, 0.5)
   if not is_active(read_status(self)) then raise("robotiq:move: the gripper is not active; call activate first", "stale") end
   send(self, 0x09, count, speed, force)
-  wait_for(self, "motion", function(status) return status.echo == count and status.status >> 6 ~= 0 end)
+  gripper.wait_for(self, "motion", read_status, function(status) return status.echo == count and status.status >> 6 ~= 0 end)
   return self:read()
 end
 
@@ -78,23 +54,9 @@ function Robotiq:read()
           object = (object == "opening" or object == "closing") and object or nil, fault = status.fault & 0x0F, current = status.current / 100}
 end
 
---- Stops the fingers where they are.
-function Robotiq:stop() send(self, 0x01, 0, 0, 0) end
+function Robotiq:stopping() return "\1\0\0\0\0\0" end
 
--- the frame that stops them
-local function last_frame(self)
-  local bytes = string.pack(">B B I2 I2 B", self.slave, 16, request_address, 3, 6) .. "\1\0\0\0\0\0"
-  return modbus.frame(bytes)
-end
-
---- Stops the fingers and closes the port.
-function Robotiq:close()
-  device.send_last(self.port, last_frame(self))
-  if self.owns_port then self.port:close() end
-end
-
-Robotiq.__close = function(self) self:close() end
-Robotiq.__gc = function(self) device.send_last(self.port, last_frame(self)) end
+gripper.complete(Robotiq)
 
 --- A Robotiq gripper of two fingers, by Modbus RTU. Openings are checked before they are sent. When the program ends, the fingers are stopped;
 --- a program that is killed lets a motion end: the gripper has no watchdog.
@@ -116,10 +78,5 @@ Robotiq.__gc = function(self) device.send_last(self.port, last_frame(self)) end
 --- > gripper:move(0.1)  --> error: opening: expected 0 to 0.085 m, got 0.1
 return function(options)
   local o = new_options(subject, options)
-  local given, baud = o:raw "port", o:get "baud"
-  local gripper = {subject = subject, stroke = o:get "stroke", slave = o:get "slave", timeout = o:get "timeout",
-                   move_timeout = o:get "move_timeout", poll = o:get "poll", attempts = o:get "attempts"}
-  o:done()
-  gripper.port, gripper.owns_port = device.port_of(subject, given, baud), type(given) == "string"
-  return setmetatable(gripper, Robotiq)
+  return setmetatable(gripper.new(subject, o, {stroke = o:get "stroke"}), Robotiq)
 end

@@ -1,4 +1,4 @@
---- `clench serve`: a world that other programs control.
+--- `clench serve` and `clench mcp`: a world that other programs control.
 local error_text = require "clench.error_text"
 local in_utf8 = require "clench.in_utf8"
 local is_stopped = require "clench.is_stopped"
@@ -52,8 +52,9 @@ local function run(root, folder, package, unit, strict, ...)
   local world = clench.load(given.world, reading("world", said))
   local token
   if given["no-token"] then token = false end
-  if given.stdio then
-    local server <close> = clench.control.server {world = world, stdio = true, folder = given.folder, path = given.socket, host = given.host}
+  if given.stdio or given.verb == "mcp" then
+    local mcp = given.verb == "mcp" and (given.control and "control" or "read") or nil
+    local server <close> = clench.control.server {world = world, stdio = true, mcp = mcp, folder = given.folder, path = given.socket, host = given.host}
     return clench.loop.run()
   end
   local server <close> = clench.control.server {world = world, path = given.socket, host = given.host, token = token, folder = given.folder,
@@ -70,7 +71,7 @@ function serve.main(...)
   local ok, problem = pcall(run, ...)
   if ok then return "0" end
   if is_stopped(problem) then error(problem, 0) end
-  io.stderr:write("clench serve: ", printable(in_utf8(error_text(problem)), "\n"), "\n")
+  io.stderr:write("clench ", read_words(select(6, ...)).verb, ": ", printable(in_utf8(error_text(problem)), "\n"), "\n")
   return "1"
 end
 

@@ -35,7 +35,18 @@ local kinds = {
     command = function(gripper) gripper:move(0.03) end,
     check = function(t, gripper) t.close(gripper:read().opening, 0.03, 2e-4) end,
     refuse = function(gripper) gripper:move(0.1) end, refusal = "opening: expected 0 to 0.085 m, got 0.1",
-    stopped = function(device) return device.stops > 1 and not device.has_goal end, quick = 0.02,
+    stopped = function(device) return device.stops > 2 and not device.has_goal end, quick = 0.02,
+  },
+  robotiq_3f = {
+    connect = function(at, quick, attempts)
+      local gripper = devices.robotiq_3f {port = at, timeout = quick, attempts = attempts or 300, poll = 0.001}
+      gripper:activate()
+      return gripper
+    end,
+    command = function(gripper) gripper:move {0.2, 0.4, 0.6} end,
+    check = function(t, gripper) t.close({table.unpack(gripper:read().closing, 1, 3)}, {0.2, 0.4, 0.6}, 2e-3) end,
+    refuse = function(gripper) gripper:move {0.2, 0.4, 1.1} end, refusal = "finger C: expected 0 to 1 (1: closed), got 1.1",
+    stopped = function(device) return device.stops > 2 and not device.goes end, quick = 0.02,
   },
   cyberglove = {
     options = {sensors = {10, 20, 30, 255, 1}},
@@ -52,7 +63,7 @@ local kinds = {
     end, quick = 0.02,
   },
 }
-local names = {"barrett", "cyberglove", "dynamixel", "flock", "robotiq"}
+local names = {"barrett", "cyberglove", "dynamixel", "flock", "robotiq", "robotiq_3f"}
 
 -- a simulated device, with further options
 local function simulate(name, more)
@@ -136,7 +147,7 @@ for _, name in ipairs(names) do
           local clench = require "clench"
           local options = kind_name == "dynamixel" and {port = path, ids = {1, 2, 3}} or {port = path}
           local made = clench.devices[kind_name](options)
-          if kind_name == "barrett" then made:initialize() elseif kind_name == "robotiq" then made:activate() end
+          if kind_name == "barrett" then made:initialize() elseif kind_name:find "^robotiq" then made:activate() end
           local env = setmetatable({driver = made}, {__index = _G})
           made = nil
           load(code, "=code", "t", env)()
@@ -215,6 +226,38 @@ test("Dynamixel: the watchdog stops motors without packets, and new goals set it
   t.equal(#soft.ids, 1)
 end)
 
+test("Dynamixel: one packet answers a fast sync read, and motors without it are read as before", function(t)
+  local packet = require "clench.devices.dynamixel_packet"
+  local function counts(device) return device.instructions[0x8A] or 0, device.instructions[0x82] or 0 end
+  for _, case in ipairs {{true, nil}, {true, false}, {false, nil}, {true, true}} do
+    local device <close> = simulated.dynamixel {ids = {3, 7, 4}, fast = case[1], speed = 100}
+    local bus <close> = devices.dynamixel {port = device.path, ids = {3, 7, 4}, fast = case[2]}
+    bus:write_positions {0.1, 0.2, -0.3}
+    loop.sleep(0.05)
+    bus:read_positions()
+    local fast, plain = counts(device)
+    t.close(bus:read_positions(), {0.1, 0.2, -0.3}, 8e-4)
+    local fast_now, plain_now = counts(device)
+    local is_fast = case[1] and case[2] ~= false
+    t.equal({fast_now - fast, plain_now - plain}, is_fast and {1, 0} or {0, 1})
+  end
+  -- data that look like a header are not stuffed; a wrong byte anywhere, or another motor, is no answer
+  local whole = "\xFF\xFF\xFD\0\xFE\x11\0\x55\0\3\xFF\xFF\xFD\0"
+  whole = whole .. string.pack("<I2", packet.crc(whole)) .. "\x80\7\1\2\3\4"
+  whole = whole .. string.pack("<I2", packet.crc(whole))
+  local answers = packet.decode_fast("\xFF\xFF" .. whole, {3, 7}, 4)
+  t.equal({answers[3].parameters, answers[3].error, answers[7].parameters, answers[7].error}, {"\xFF\xFF\xFD\0", 0, "\1\2\3\4", 0x80})
+  t.equal({packet.decode_fast(whole, {7, 3}, 4)}, {nil, true})
+  for i = 1, #whole do
+    local broken = whole:sub(1, i - 1) .. string.char(whole:byte(i) ~ 0x10) .. whole:sub(i + 1)
+    t.equal((packet.decode_fast(broken, {3, 7}, 4)), nil, i)
+    t.equal({packet.decode_fast(whole:sub(1, i - 1), {3, 7}, 4)}, {})
+  end
+  -- a motor that is missing: those after it are silent
+  local device <close> = simulated.dynamixel {ids = {1, 2}}
+  t.fails(function() devices.dynamixel {port = device.path, ids = {1, 5, 2}, timeout = 0.01, attempts = 3} end, "motor 5: ping")
+end)
+
 test("Robotiq: frames are those of the gripper's manual", function(t)
   local modbus = require "clench.devices.modbus"
   local function hex(text) return (text:gsub(".", function(byte) return ("%02X "):format(byte:byte()) end)) end
@@ -230,6 +273,45 @@ test("Robotiq: frames are those of the gripper's manual", function(t)
   t.close(state.opening, 0.085 * (1 - 128 / 255), 1e-12)
   t.equal(gripper:move(0.085).object, nil)
   t.fails(function() modbus.read(gripper, 0, 1) end, "the device refuses: reading registers (exception 2)")
+end)
+
+test("Robotiq: three fingers move together or each for itself, in all modes, and report what they meet", function(t)
+  local modbus = require "clench.devices.modbus"
+  -- a status of the gripper's manual, with its checksum: stopped, all fingers where they should be
+  local status = "\x09\x03\x10\xF9\xFF\x00\x00\x07\x00\x00\x06\x00\x00\x06\x00\x00\x89\x00\x00"
+  t.equal(modbus.frame(status):sub(-2), "\x34\x8D")
+  local manual = {port = clench.port.pty(), poll = 0.001}
+  local reader = devices.robotiq_3f {port = clench.port.serial {path = manual.port.path}, timeout = 1}
+  loop.spawn(function()
+    manual.port:read(8, 2)
+    manual.port:send(modbus.frame(status))
+  end)
+  local state = reader:read()
+  t.close(state.closing, {7 / 255, 6 / 255, 6 / 255, 137 / 255}, 1e-12)
+  t.equal({state.is_active, state.is_moving, state.mode, state.fault, state.objects}, {true, false, "basic", 0, {false, false, false, false}})
+  manual.port:close()
+
+  local device <close> = simulated.robotiq_3f {objects = {128, 255, 200}}
+  local gripper <close> = devices.robotiq_3f {port = device.path, poll = 0.001}
+  t.fails(function() gripper:move(1) end, "robotiq_3f:move: the gripper is not active; call activate first")
+  t.fails(function() gripper:set_mode "wide" end, "robotiq_3f:set_mode: the gripper is not active")
+  gripper:activate()
+  state = gripper:move(1)
+  t.close(state.closing, {128 / 255, 1, 200 / 255, 137 / 255}, 1e-12)
+  t.equal(state.objects, {"closing", false, "closing", false})
+  gripper:set_mode "pinch"
+  t.equal({device.mode, gripper:read().mode, gripper:read().is_active}, {1, "pinch", true})
+  t.close(gripper:move(0.25).closing, {64 / 255, 64 / 255, 64 / 255, 137 / 255}, 1e-12)
+  t.close(gripper:move({0.1, 0.2, 0.3, 0.9}, 0.5, 1).closing, {26 / 255, 51 / 255, 77 / 255, 230 / 255}, 1e-12)
+  gripper:stop()
+  t.equal({gripper:read().mode, device.goes}, {"pinch", false})
+  gripper:activate()
+  t.equal(gripper:read().mode, "basic")
+  t.fails(function() gripper:move {0.1, 0.2} end, "robotiq_3f:move: expected one number, one per finger, or those and the scissor's")
+  t.fails(function() gripper:move(0.5, 2) end, "robotiq_3f:move: speed: expected a part from 0 to 1, got 2")
+  t.fails(function() gripper:move "x" end, "closing: expected 0 to 1 (1: closed), got 'x'")
+  t.fails(function() gripper:set_mode "fist" end, "robotiq_3f:set_mode: expected basic, pinch, wide or scissor, got 'fist'")
+  t.fails(function() simulated.robotiq_3f {objects = {300}} end, "objects[1] must be a number from 0 to 255, got 300")
 end)
 
 test("CyberGlove: DOFs follow from a calibration, within their limits", function(t)

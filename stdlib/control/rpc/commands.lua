@@ -1,4 +1,4 @@
---- Commands of the session as methods of JSON-RPC. Long ones run as jobs on a clone; their result is applied as one edit that can be undone,
+--- Commands of the session as methods of JSON-RPC. Long ones run as jobs on a clone; what they change is applied as one edit that can be undone,
 --- if the world has not changed since.
 local arguments = require "clench.session.arguments"
 local failure = require "clench.control.rpc.failure"
@@ -8,10 +8,9 @@ local values = require "clench.control.rpc.values"
 local commands = {}
 
 local apply = "control.apply"
-local runs_the_world = {["dynamics.run"] = true, ["dynamics.step"] = true}
 
 --- Does a command take so long that it runs as a job?
-function commands.is_long(command) return command.script ~= nil and (command.long == true or runs_the_world[command.name] == true) end
+function commands.is_long(command) return command.long == true and (command.script ~= nil or command.reads == true) end
 
 --- Prepares the session of a server: registers the command by which results of jobs become edits, and counts edits in `server.edits`.
 ---@return fun() # ends the count
@@ -44,43 +43,54 @@ function commands.names(session)
 end
 
 -- runs in the job
-local function work(world, name, args)
+local function work(world, name, args, current)
   local clench = require "clench"
   local session = clench.session(world)
+  for field, address in pairs(current) do session[field] = session:find(address) end
   local result = session:run(name, args)
   return {world = session.world, result = clench.json.encode(require "clench.control.rpc.values".of(result))}
 end
 
--- without a hand, the job would choose the first one
-local function with_current(session, command, args)
-  for _, parameter in ipairs(command.parameters or {}) do
-    if parameter.name == "hand" and args.hand == nil and session.hand then args.hand = values.address(session.hand) end
-  end
-  return args
+local function address_of(thing) return thing and values.address(thing) end
+
+-- a job that runs a command on a clone
+local function start(context, command, args)
+  local session = context.session
+  local current = {hand = address_of(session.hand), object = address_of(session.object)}
+  local job = clench.job(work, {args = {session.world, command.name, args, current}, name = command.name})
+  if context.on_job then context.on_job(job) end
+  return job
+end
+
+-- keeps a job and waits for it; finish(made) returns what the job leaves as its result
+local function result_of(context, job, finish)
+  local number = jobs.keep(context, job, function(kept)
+    if kept.job.state == "done" then kept.result = finish(kept.job:result()) end
+  end)
+  local kept = context.server.jobs[number]
+  clench.loop.wait(job)
+  while kept.result == nil and kept.problem == nil and kept.job.state == "done" do clench.loop.sleep(0) end
+  if kept.problem then error(kept.problem, 0) end
+  if kept.result == nil then kept.job:result() end  -- raises why
+  return kept.result, number
 end
 
 local function run_long(context, command, args)
   local session = context.session
   local world = session.world or failure.raise("failed", "no world is open")
   if command.enabled and not command.enabled(session) then return session:run(command.name, args) end  -- raises why
-  args = with_current(session, command, args)
+  if command.reads then
+    return (result_of(context, start(context, command, args), function(made) return {result = clench.json.decode(made.result)} end)).result
+  end
   local server = context.server
   local before, edits, lines = world:hash(), server.edits, command.script(session, args)
-  local job = clench.job(work, {args = {world, command.name, args}, name = command.name})
-  local number = jobs.keep(context, job, function(kept)
-    if kept.job.state ~= "done" then return end
-    local made = kept.job:result()
+  local result, number = result_of(context, start(context, command, args), function(made)
     -- the hash is that of the state; masses and the like are changed by edits
     local is_same = session.world == world and server.edits == edits and world:hash() == before
-    kept.result = {applied = is_same, result = clench.json.decode(made.result)}
-    if kept.result.applied then session:run(apply, {world = made.world, lines = lines}) end
+    if is_same then session:run(apply, {world = made.world, lines = lines}) end
+    return {applied = is_same, result = clench.json.decode(made.result)}
   end)
-  local kept = server.jobs[number]
-  clench.loop.wait(job)
-  while kept.result == nil and kept.problem == nil and kept.job.state == "done" do clench.loop.sleep(0) end
-  if kept.problem then error(kept.problem, 0) end
-  if kept.result == nil then kept.job:result() end  -- raises why
-  return {job = number, applied = kept.result.applied, result = kept.result.result}
+  return {job = number, applied = result.applied, result = result.result}
 end
 
 --- Runs a command.

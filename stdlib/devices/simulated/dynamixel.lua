@@ -99,6 +99,23 @@ local function sync_read(line, parameters)
   end
 end
 
+-- every motor appends a block to one packet as soon as it has heard those before it: without one, nothing more follows
+local function fast_sync_read(line, parameters)
+  if not line.fast or #parameters < 5 then return end
+  local address, size = string.unpack("<I2 I2", parameters)
+  if address + size > memory_size then return end
+  local length = 1 + (#parameters - 4) * (size + 4)
+  local bytes = "\xFF\xFF\xFD\0\xFE" .. string.char(length % 256, length // 256, 0x55)
+  for at = 5, #parameters do
+    local motor = line.motors[parameters:byte(at)]
+    if not motor then break end
+    bytes = bytes .. "\0" .. parameters:sub(at, at) .. load_bytes(motor, address, size)
+    local sum = checksum(bytes)
+    bytes = bytes .. string.char(sum % 256, sum // 256)
+  end
+  line:send(bytes)
+end
+
 local function one_motor(line, id, code, parameters)
   local motor = line.motors[id]
   if not motor then return end
@@ -118,7 +135,8 @@ end
 local function obey(line, id, code, parameters)
   for _, motor in pairs(line.motors) do update(line, motor) end
   if id ~= broadcast then return one_motor(line, id, code, parameters) end
-  if code == 0x83 then sync_write(line, parameters) elseif code == 0x82 then sync_read(line, parameters) end
+  line.instructions[code] = (line.instructions[code] or 0) + 1
+  if code == 0x83 then sync_write(line, parameters) elseif code == 0x82 then sync_read(line, parameters) elseif code == 0x8A then fast_sync_read(line, parameters) end
 end
 
 -- the packets among received bytes; returns what is left
@@ -161,11 +179,12 @@ end
 ---@param options? table
 ---@option ids? integer[]  of the motors; 1 alone by default
 ---@option speed? number [rad/s, > 0] = 5
+---@option fast? boolean = true  false: of old firmware, without fast sync read
 ---@option flip_bytes? number [0 to 1] = 0  part of the bytes in which a bit is changed
 ---@option lose_bytes? number [0 to 1] = 0  part of the bytes that are lost
 ---@option delay? number [s, >= 0] = 0  before each answer
 ---@option seed? integer [0 to 9007199254740992] = 1
----@return table bus # `path`, `motors` by id, `unplug()`, `close()`
+---@return table bus # `path`, `motors` by id, `instructions`: how often each was broadcast, `unplug()`, `close()`
 --- > simulated = clench.devices.simulated.dynamixel {ids = {1, 2}}
 --- > line = clench.port.serial {path = simulated.path}
 --- > line:write "\xFF\xFF\xFD\x00\x01\x03\x00\x01\x19\x4E"
@@ -180,6 +199,6 @@ return function(options)
       if math.type(id) ~= "integer" or id < 0 or id > 252 then o:expected(("ids[%d]"):format(i), "a number from 0 to 252", id) end
       motors[id] = new_motor()
     end
-    return {motors = motors, speed = o:get "speed"}
+    return {motors = motors, instructions = {}, speed = o:get "speed", fast = o:get "fast"}
   end, serve)
 end

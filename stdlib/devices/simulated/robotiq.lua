@@ -1,19 +1,6 @@
 local loop = clench.loop
+local modbus_slave = require "clench.devices.simulated.modbus_slave"
 local new_line = require "clench.devices.simulated.line"
-
--- CRC-16 of Modbus by a table of the reflected polynomial
-local table_of = {}
-for byte = 0, 255 do
-  local crc = byte
-  for _ = 1, 8 do crc = crc % 2 == 1 and (crc // 2) ~ 0xA001 or crc // 2 end
-  table_of[byte] = crc
-end
-
-local function checksum(bytes)
-  local crc = 0xFFFF
-  for i = 1, #bytes do crc = crc // 256 ~ table_of[(crc ~ bytes:byte(i)) % 256] end
-  return string.char(crc % 256, crc // 256)
-end
 
 -- brings the fingers to the present time
 local function update(gripper)
@@ -48,51 +35,11 @@ local function command(gripper, bytes)
   if gripper.goal ~= goal or not gripper.is_moving then gripper.goal, gripper.is_moving = goal, true end
 end
 
--- the answer to a frame without its checksum
-local function answer(gripper, frame)
-  local code = frame:byte(2)
-  if code == 3 and #frame == 6 then
-    local address, count = string.unpack(">I2 I2", frame, 3)
-    if address < 0x07D0 or address + count > 0x07D3 or count == 0 then return "\x83\2" end
-    local from = 2 * (address - 0x07D0)
-    return "\3" .. string.char(2 * count) .. status_bytes(gripper):sub(from + 1, from + 2 * count)
-  elseif code == 16 and #frame >= 7 and #frame == 7 + frame:byte(7) then
-    local address, count = string.unpack(">I2 I2", frame, 3)
-    if address ~= 0x03E8 or count ~= 3 then return "\x90\2" end
-    command(gripper, frame:sub(8))
-    return "\16" .. frame:sub(3, 6)
-  end
-  return string.char(code | 0x80, 1)
-end
-
-local function size_of(bytes)
-  if bytes:byte(2) == 16 then return #bytes >= 7 and 9 + bytes:byte(7) or nil end
-  return 8
-end
-
 local function serve(gripper)
-  local waiting = ""
-  while true do
-    -- silence ends a frame
-    local bytes, why = gripper:receive(waiting ~= "" and 0.005 or nil)
-    if bytes then
-      waiting = waiting .. bytes
-    elseif why == "timeout" then
-      waiting = ""
-    else
-      return
-    end
-    local size = #waiting >= 2 and size_of(waiting)
-    if size and #waiting >= size then
-      local frame, sum = waiting:sub(1, size - 2), waiting:sub(size - 1, size)
-      waiting = ""
-      if checksum(frame) == sum and frame:byte(1) == gripper.slave then
-        update(gripper)
-        local reply = frame:sub(1, 1) .. answer(gripper, frame)
-        gripper:send(reply .. checksum(reply))
-      end
-    end
-  end
+  modbus_slave(gripper, {
+    [0x07D0] = {count = 3, read = function() return status_bytes(gripper) end},
+    [0x03E8] = {count = 3, write = function(bytes) command(gripper, bytes) end},
+  }, function() update(gripper) end)
 end
 
 --- A program that plays a Robotiq gripper of two fingers.

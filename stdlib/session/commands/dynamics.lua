@@ -18,7 +18,7 @@ return {
    parameters = {{name = "seconds", type = "number", min = 0, max = 1e6, unit = "s", default = 1, text = "simulated time"}},
    run = run,
    script = function(_, args) return ("world:run(%s)"):format(script.literal(args.seconds)) end},
-  {name = "dynamics.step", label = "Step", menu = "Dynamics", enabled = conditions.world,
+  {name = "dynamics.step", label = "Step", menu = "Dynamics", enabled = conditions.world, long = true,
    parameters = {{name = "count", type = "integer", min = 1, max = 1e9, default = 1, text = "number of steps"}},
    run = function(session, args)
      local step = session.world.time_step

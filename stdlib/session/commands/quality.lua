@@ -20,14 +20,14 @@ local function options_of(session, args)
   return options
 end
 
-local function reader(name, label, parameters, run)
-  return {name = "grasp." .. name, label = label, menu = "Grasp", enabled = has_object, reads = true, parameters = {hand, table.unpack(parameters)}, run = run}
+local function reader(name, label, parameters, run, long)
+  return {name = "grasp." .. name, label = label, menu = "Grasp", enabled = has_object, reads = true, long = long, parameters = {hand, table.unpack(parameters)}, run = run}
 end
 
 return {
   reader("quality", "Quality…", {{name = "measure", type = "string", default = "epsilon", text = "name of a measure"}},
          function(session, args) return grasp_of(session, args):quality(args.measure) end),
-  reader("measures", "Quality Measures…", {}, function(session, args) return grasp_of(session, args):quality_all() end),
+  reader("measures", "Quality Measures…", {}, function(session, args) return grasp_of(session, args):quality_all() end, true),
   reader("contacts", "Contacts", {}, function(session, args) return session.world:contacts(arguments.find_robot(session, args.hand), session.object) end),
   reader("projection", "Create GWS Projection…",
          {{name = "fixed", type = "table", optional = true, text = "values of the coordinates that are fixed, three of fx, fy, fz, tx, ty and tz"},

@@ -49,7 +49,7 @@ return {
   {name = "world.save_as", label = "Save As…", menu = "File", shortcut = "ctrl+shift+s", enabled = conditions.world, reads = true,
    parameters = {{name = "path", type = "string", text = "a file; .wld is appended to a name without an extension"}},
    run = function(session, args) return save(session, with_ending(args.path, ".wld")) end},
-  {name = "world.save_image", label = "Save Image…", menu = "File", enabled = conditions.world, reads = true,
+  {name = "world.save_image", label = "Save Image…", menu = "File", enabled = conditions.world, reads = true, long = true,
    parameters = {{name = "path", type = "string", text = "a file; .png is appended to a name without an extension"},
                  {name = "options", type = "table", optional = true, text = "options of clench.render"}},
    run = function(session, args)

@@ -1,0 +1,108 @@
+--- Messages of JSON-RPC 2.0, one per line: every request is answered, including malformed ones.
+local failure = require "clench.control.rpc.failure"
+local is_stopped = require "clench.is_stopped"
+local null_ids = require "clench.control.rpc.null_ids"
+local messages = {}
+
+local max_batch = 1000  -- requests
+local null = clench.json.null
+
+--- Result of a request that is not answered, as its client has cancelled it.
+messages.no_answer = {}
+
+-- is it [...], and not {...}?
+local function is_list(value)
+  if type(value) ~= "table" then return false end
+  if #value > 0 then return true end
+  local meta = getmetatable(value)
+  return next(value) == nil and not (meta and meta.__object)
+end
+
+local function is_id(id) return type(id) == "string" or type(id) == "number" end
+
+local function check_form(message)
+  if type(message) ~= "table" or is_list(message) then failure.raise("request", "expected a request {jsonrpc, id, method, params}") end
+  if message.jsonrpc ~= "2.0" then failure.raise("request", "jsonrpc: expected \"2.0\"") end
+  if type(message.method) ~= "string" then failure.raise("request", "method: expected a string") end
+  if message.id ~= nil and not is_id(message.id) then failure.raise("request", "id: expected a string or a number") end
+  local params = message.params
+  if params == nil or is_list(params) and #params == 0 then return {} end
+  if type(params) ~= "table" or is_list(params) then failure.raise("params", "params: expected an object of parameters by name") end
+  return params
+end
+
+--- A message as text. A result that JSON cannot express becomes an error.
+function messages.encode(message)
+  local ok, text = pcall(clench.json.encode, message)
+  if ok then return text end
+  if is_stopped(text) then error(text, 0) end
+  return clench.json.encode {jsonrpc = "2.0", id = message.id, error = failure.of(text)}
+end
+
+-- the response to a request, as text; nil: it is a notification
+local function respond(message, call, has_null_id)
+  local ok, result = pcall(function()
+    local params = check_form(message)
+    return call(message.method, params, message.id)
+  end)
+  if not ok and is_stopped(result) then error(result, 0) end
+  local id = type(message) == "table" and not is_list(message) and message.id
+  local is_request = has_null_id or id ~= nil or not ok and result.code == failure.request
+  if not is_request or ok and result == messages.no_answer then return nil end
+  if ok then return messages.encode {jsonrpc = "2.0", id = is_id(id) and id or null, result = result} end
+  return messages.encode {jsonrpc = "2.0", id = is_id(id) and id or null, error = failure.of(result)}
+end
+
+local function respond_to_all(message, call, line)
+  local has_null_id = null_ids(line)
+  if not is_list(message) then return respond(message, call, has_null_id[1]) end
+  if #message == 0 or #message > max_batch then
+    local ok, problem = pcall(failure.raise, "request", "expected 1 to %d requests in a batch, got %d", max_batch, #message)
+    return not ok and messages.encode {jsonrpc = "2.0", id = null, error = failure.of(problem)}
+  end
+  local responses = {}
+  for i, one in ipairs(message) do responses[#responses + 1] = respond(one, call, has_null_id[i]) end
+  if #responses > 0 then return "[" .. table.concat(responses, ",") .. "]" end
+end
+
+local function has_long(message, is_long)
+  for _, one in ipairs(is_list(message) and message or {message}) do
+    if type(one) == "table" and type(one.method) == "string" and is_long(one.method, type(one.params) == "table" and one.params or {}) then return true end
+  end
+  return false
+end
+
+-- the message of a line; what is not UTF-8 could not be sent back, as the id of a response for instance
+local function decoded(line)
+  local valid, at = utf8.len(line)
+  if not valid then failure.raise("parse", "byte %d is not UTF-8", at) end
+  return clench.json.decode(line)
+end
+
+--- Answers a line. Lines with long requests are answered in a task of their own, while others are served.
+---@param line string
+---@param reply fun(text: string?)  sends the answer, if there is one
+---@param call fun(method: string, params: table, id: any): any  result of a request, as plain data
+---@param is_long fun(method: string, params: table): boolean
+function messages.serve(line, reply, call, is_long)
+  if not line:find "%S" then return end
+  local ok, message = pcall(decoded, line)
+  if not ok then
+    if is_stopped(message) then error(message, 0) end
+    return reply(messages.encode {jsonrpc = "2.0", id = null, error = {code = failure.parse, message = failure.of(message).message}})
+  end
+  if not has_long(message, is_long) then return reply(respond_to_all(message, call, line)) end
+  clench.loop.spawn(function() reply(respond_to_all(message, call, line)) end)
+  coroutine.yield()  -- it begins before the next request of anyone is served
+end
+
+--- Sends a notification.
+---@param params table  plain data
+function messages.notify(client, method, params) client:send(messages.encode {jsonrpc = "2.0", method = method, params = params} .. "\n") end
+
+--- Answers a line that is too long.
+function messages.refuse_long(client)
+  client:send(messages.encode {jsonrpc = "2.0", id = null, error = {code = failure.request, message = ("a line has more than %d bytes"):format(client.port.max_line)}} .. "\n")
+end
+
+return messages

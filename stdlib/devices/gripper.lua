@@ -1,0 +1,72 @@
+--- What drivers of Robotiq grippers share: registers of requests and of the status, waiting, and the end.
+local described = require "clench.described"
+local device = require "clench.devices.device"
+local loop = clench.loop
+local modbus = require "clench.devices.modbus"
+local raise = require "clench.raise"
+local gripper = {}
+
+local request_address, status_address = 0x03E8, 0x07D0
+
+--- Writes the registers of requests.
+---@param bytes string  two per register
+function gripper.send(self, bytes) modbus.write(self, request_address, bytes) end
+
+--- The bytes of the status.
+---@param count integer  of registers
+function gripper.status(self, count) return modbus.read(self, status_address, count) end
+
+--- Reads states until one fulfills a condition.
+function gripper.wait_for(self, doing, read, condition)
+  local last = loop.time() + self.move_timeout
+  while true do
+    local state = read(self)
+    if condition(state) then return state end
+    if loop.time() > last then device.fail(self.subject, self.port, "timeout", doing) end
+    loop.sleep(self.poll)
+  end
+end
+
+--- A part of the largest speed or force as a byte.
+---@param subject string  "robotiq:move"
+function gripper.byte_of(subject, name, value, default)
+  if value == nil then value = default end
+  if type(value) ~= "number" or not (value >= 0 and value <= 1) then
+    raise(("%s: %s: expected a part from 0 to 1, got %s"):format(subject, name, described(value)))
+  end
+  return math.floor(255 * value + 0.5)
+end
+
+-- the frame that stops the fingers
+local function last_frame(self)
+  local bytes = self:stopping()
+  return modbus.frame(string.pack(">B B I2 I2 B", self.slave, 16, request_address, #bytes // 2, #bytes) .. bytes)
+end
+
+--- Completes a class whose method `stopping` returns the registers that stop the fingers.
+function gripper.complete(class)
+  --- Stops the fingers where they are.
+  function class:stop() gripper.send(self, self:stopping()) end
+
+  --- Stops the fingers and closes the port.
+  function class:close()
+    device.send_last(self.port, last_frame(self))
+    if self.owns_port then self.port:close() end
+  end
+
+  class.__close = function(self) self:close() end
+  class.__gc = function(self) device.send_last(self.port, last_frame(self)) end
+end
+
+--- The options that all grippers have; opens the port.
+---@param o table  options of the caller, which are all read but these
+function gripper.new(subject, o, fields)
+  local given, baud = o:raw "port", o:get "baud"
+  fields.subject, fields.slave, fields.timeout = subject, o:get "slave", o:get "timeout"
+  fields.move_timeout, fields.poll, fields.attempts = o:get "move_timeout", o:get "poll", o:get "attempts"
+  o:done()
+  fields.port, fields.owns_port = device.port_of(subject, given, baud), type(given) == "string"
+  return fields
+end
+
+return gripper
