@@ -3,8 +3,10 @@
 local camera = require "clench.view.camera"
 local context = require "clench.view.context"
 local drags = require "clench.view.drags"
+local error_text = require "clench.error_text"
 local frames = require "clench.view.frames"
 local handles = require "clench.view.handles"
+local is_stopped = require "clench.is_stopped"
 local joint_handles = require "clench.view.joint_handles"
 local manipulator = require "clench.view.manipulator"
 local measure = require "clench.view.measure"
@@ -77,8 +79,12 @@ local function move_drag(view, press, mouse)
     view:run("world.select", {addresses = {view:address(drag.target)}})
   end
   press.moved = true
-  if drag.move then return drag.move(mouse.x, mouse.y, ctrl_down(ui), shift_down(ui)) end
-  drags.move(view, drag, mouse.x, mouse.y, ctrl_down(ui), shift_down(ui))
+  local move = drag.move or function(...) drags.move(view, drag, ...) end
+  local ok, problem = pcall(move, mouse.x, mouse.y, ctrl_down(ui), shift_down(ui))
+  if ok then return end
+  -- a motion is refused where it starts in collision
+  if is_stopped(problem) then error(problem, 0) end
+  view.status = error_text(problem)
 end
 
 local function end_press(view, press, mouse)

@@ -209,3 +209,18 @@ test("a prismatic joint has an arrow between its limits", function(t)
   t.close(robot.dofs[arrow.dof], (low + high) / 2, 0.25 * (high - low))
   view:close()
 end)
+
+test("a drag that starts in collision is refused in the status bar, and nothing moves", function(t)
+  local session, view = open("mug", "Translate")
+  local mug, hand = session.world:body "mug", session.hand
+  mug.pose = hand.bodies[1].pose
+  view:home(true)
+  view:frame()
+  local before = session.world:hash()
+  for _, name in ipairs {"x", "y", "z"} do
+    pull(view, handle_of(view, name), clench.vec3(0.01, 0.01, 0.01))
+    t.ok(view.status:find "the motion starts in collision", view.status)
+    t.equal(session.world:hash(), before)
+  end
+  view:close()
+end)
