@@ -1,4 +1,4 @@
--- A figure for a paper: a grasp with its forces as cones, beside a plot of its epsilon over friction.
+-- A figure for a paper: a grasp with its forces as cones, next to a plot of its epsilon over friction.
 --   clench run examples/12_paper_figure.lua [PICTURE]
 local clench = require "clench"
 local path = arg and arg[1] or "build/figure.png"

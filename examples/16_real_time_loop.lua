@@ -24,7 +24,7 @@ local function timed(stage, f, ...)
 end
 local function track() mug.pose = to_pose(flock:read()[1]) end
 
--- grasps lie in the frame of the mug: they stay what they are while it moves
+-- grasps are in the frame of the mug: they stay valid while it moves
 local function plan()
   for _, grasp in ipairs(search:events()) do
     if not best or grasp.epsilon > best.epsilon then best = grasp end

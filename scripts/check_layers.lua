@@ -1,8 +1,8 @@
--- Holds the sources against the tables of docs/architecture.md: which module may include which, in which order
--- the rooms within a module and the folders of stdlib stand, and where each library may be seen. Finds circles of includes, types of one name, and
--- names that unity builds would bring together, too. Runs in a stock interpreter:
+-- Checks the sources against the tables of docs/architecture.md: permitted includes between modules, the order of the subfolders of a module and of
+-- the folders of stdlib, and the sources that may use each library. Also finds include cycles, types with the same name, and names that would collide
+-- in unity builds. Runs in a stock interpreter:
 --   lua5.4 scripts/check_layers.lua [ROOT]
--- One sentence a fault, file:line first; exit code 1 when there is any.
+-- One sentence per fault, file:line first; exit code 1 if there is any.
 local root = arg[1] or "."
 local faults = {}
 
@@ -15,7 +15,7 @@ local function read(path)
   return text
 end
 
--- every name between back-quotes, in order
+-- all names between backquotes, in order
 local function quoted(cell)
   local names = {}
   for name in cell:gmatch "`([^`]+)`" do names[#names + 1] = name end
@@ -44,7 +44,7 @@ local function read_table(path, column)
   return rows
 end
 
---- module -> {rank, direct = names as its row gives them, may = set of all it may include}
+--- module -> {rank, direct = names listed in its row, may = set of all modules that it may include}
 local function read_modules(path)
   local modules = {}
   for _, row in ipairs(read_table(path, "may include")) do
@@ -53,7 +53,7 @@ local function read_modules(path)
     for other in row["may include"]:gmatch "[%w_]+" do module.direct[#module.direct + 1] = other end
     local place = path .. ":" .. row.line
     if modules[name] then fault(place, "module '%s' has two rows", name) end
-    -- rows stand below those that they name, so the rights of these are complete
+    -- rows follow those that they name, so the sets of these are complete
     for _, other in ipairs(module.direct) do
       local below = modules[other]
       if not below then
@@ -88,7 +88,7 @@ local function matches(text, patterns)
   return false
 end
 
---- Rows of the table of libraries: headers, names and homes as patterns; a module is the home of all its files.
+--- Rows of the table of libraries: headers, names and homes as patterns; a module as a home means all of its files.
 local function read_libraries(path)
   local libraries = {}
   for _, row in ipairs(read_table(path, "seen only by")) do
@@ -104,7 +104,7 @@ local function read_libraries(path)
   return libraries
 end
 
--- where the comment or literal that starts at `at` ends; nil when none does. `line`: what stands before it
+-- end of the comment or literal that starts at `at`; nil if none starts there. `line`: the text of the line before it
 local function end_of_opaque(text, at, line)
   local two = text:sub(at, at + 1)
   local quote = two:sub(1, 1)
@@ -124,7 +124,7 @@ local function end_of_opaque(text, at, line)
   end
 end
 
--- C++ without comments and literals, names of included files apart; lines keep their numbers
+-- C++ without comments and literals, except for names of included files; line numbers are kept
 local function code_of(text)
   local out, at, line = {}, 1, ""
   while at <= #text do
@@ -150,12 +150,12 @@ local function read_sources()
   local sources = {}
   for found in list:lines() do
     local path = found:match "^%./(.*)$"
-    local source = {path = path, module = path:match "^([^/]+)/" or "", room = path:match "^[^/]+/([^/]+)/",
+    local source = {path = path, module = path:match "^([^/]+)/" or "", subfolder = path:match "^[^/]+/([^/]+)/",
                     unit = path:match "^(.*)%.", lines = {}, includes = {}}
     for text in (code_of(read("src/" .. path)) .. "\n"):gmatch "(.-)\r?\n" do
       local line = #source.lines + 1
       local opened, name = text:match '^%s*#%s*include%s*([<"])([^>"]+)[>"]'
-      -- sources are named from include/, where clench is this folder
+      -- include names start at include/, where clench is a link to src
       local ours = name and name:match "^clench/(.*)$"
       if name then table.insert(source.includes, {line = line, name = ours or name, quoted = opened == '"'}) end
       source.lines[line] = name and "" or text
@@ -168,36 +168,36 @@ end
 
 local function at(source, line) return ("src/%s:%d"):format(source.path, line) end
 
---- module -> its rooms by name, each with its place in their order
-local function read_rooms(path, modules)
-  local rooms = {}
-  for _, row in ipairs(read_table(path, "rooms, lower ones first")) do
+--- module -> its subfolders by name, each with its index in their order
+local function read_subfolders(path, modules)
+  local subfolders = {}
+  for _, row in ipairs(read_table(path, "subfolders, lower ones first")) do
     local name = quoted(row.module)[1] or row.module
-    if not modules[name] then fault(path .. ":" .. row.line, "module '%s' has rooms and no row above", name) end
-    rooms[name] = {}
-    for i, room in ipairs(quoted(row["rooms, lower ones first"])) do rooms[name][room] = i end
+    if not modules[name] then fault(path .. ":" .. row.line, "module '%s' has subfolders and no row above", name) end
+    subfolders[name] = {}
+    for i, subfolder in ipairs(quoted(row["subfolders, lower ones first"])) do subfolders[name][subfolder] = i end
   end
-  return rooms
+  return subfolders
 end
 
--- what stands in no room is the module's door, above all of them
-local function check_rooms(source, other, include, rooms)
-  local order = rooms[source.module] or {}
+-- files in the module's folder itself are above all subfolders
+local function check_subfolders(source, other, include, subfolders)
+  local order = subfolders[source.module] or {}
   for _, one in ipairs {source, other} do
-    if one.room and not order[one.room] then
-      return fault(at(one, 1), "room '%s' of module '%s' has no place in docs/architecture.md", one.room, one.module)
+    if one.subfolder and not order[one.subfolder] then
+      return fault(at(one, 1), "subfolder '%s' of module '%s' has no place in docs/architecture.md", one.subfolder, one.module)
     end
   end
-  if source.room and (order[other.room] or math.huge) > order[source.room] then
-    fault(at(source, include.line), "room %s of %s may not include \"%s\": it lies higher", source.room, source.module,
+  if source.subfolder and (order[other.subfolder] or math.huge) > order[source.subfolder] then
+    fault(at(source, include.line), "subfolder %s of %s may not include \"%s\": it lies higher", source.subfolder, source.module,
           include.name)
   end
 end
 
-local function check_modules(sources, modules, rooms)
+local function check_modules(sources, modules, subfolders)
   for _, source in ipairs(sources) do
     local module = modules[source.module]
-    local public = source.module == ""  -- clench.h, which includes for others
+    local public = source.module == ""  -- clench.h, the public header
     if not module and not public then
       fault(at(source, 1), "module '%s' has no row in docs/architecture.md", source.module)
     end
@@ -210,14 +210,14 @@ local function check_modules(sources, modules, rooms)
         fault(at(source, include.line), 'module %s may not include "%s": its row names %s', source.module,
               include.name, #module.direct > 0 and table.concat(module.direct, ", ") or "nothing")
       elseif sources[include.name] and other == source.module then
-        check_rooms(source, sources[include.name], include, rooms)
+        check_subfolders(source, sources[include.name], include, subfolders)
       end
     end
   end
 end
 
--- depth first over units, a header and its source together; an include of one that is still open closes a circle
-local function check_circles(sources)
+-- depth first over units (a header with its source); an include of a unit that is still open closes a cycle
+local function check_cycles(sources)
   local units, names = {}, {}
   for _, source in ipairs(sources) do
     if not units[source.unit] then
@@ -238,7 +238,7 @@ local function check_circles(sources)
       if state[other] == "open" then
         local from = 1
         while trail[from] ~= other do from = from + 1 end
-        fault(at(source, line), "circle of includes: %s -> %s", table.concat(trail, " -> ", from), other)
+        fault(at(source, line), "cycle of includes: %s -> %s", table.concat(trail, " -> ", from), other)
       elseif not state[other] then
         visit(other)
       end
@@ -251,7 +251,7 @@ local function check_circles(sources)
   end
 end
 
---- name -> the libraries that it belongs to, found once for each name.
+--- name -> the libraries that it belongs to, computed once per name.
 local function owners_of_names(libraries)
   return setmetatable({}, {__index = function(known, name)
     local owners = {}
@@ -283,20 +283,20 @@ local function check_libraries(source, libraries, owners, sources)
   end
 end
 
--- the type whose definition begins a line, as all of ours do, or nil
+-- the type whose definition begins a line, or nil
 local function defined_type(text)
   local rest = text:match "^struct%s+(.*{.*)$" or text:match "^class%s+(.*{.*)$" or text:match "^enum class%s+(.*{.*)$"
   local name, after = (rest or ""):gsub("^alignas%b()%s*", ""):match "^([%w_]+)(.*)$"
-  -- a member of another type, such as Font::Face, has a name of its own
+  -- a member of another type, such as Font::Face, has a scope of its own
   return name and not after:find "^::" and name or nil
 end
 
---- No two types of one name in the namespace clench: where the compiler does not inline them, their members would be
---- exchanged. What lies in a namespace within it, without a name or with one, is its own.
+--- No two types in the namespace clench have the same name: the linker would mix up member functions that are not inlined. Types in nested or
+--- anonymous namespaces are exempt.
 local function check_types(sources)
   local first = {}
   for _, source in ipairs(sources) do
-    local depth, outside = 0, nil  -- of braces; of them, those around a namespace that is not clench
+    local depth, outside = 0, nil  -- depth of braces; depth at the start of a namespace other than clench
     for line, text in ipairs(source.lines) do
       local space = text:match "^namespace%s*([%w_:]*)%s*{"
       if space and space ~= "clench" and not outside then outside = depth end
@@ -314,7 +314,7 @@ local function check_types(sources)
   end
 end
 
--- the text from a line on up to the first ; or {, and which of the two ends it
+-- the text from a line up to the first ; or {, and which of the two ends it
 local function statement_at(source, line)
   local text = ""
   for i = line, math.min(line + 20, #source.lines) do
@@ -325,7 +325,7 @@ local function statement_at(source, line)
   return text, nil
 end
 
--- names of functions and extern constants that a header declares for another file to define, each with its line
+-- names of functions and extern constants that a header declares and another file defines, each with its line
 local function declared_names(source)
   local found = {}
   for line, piece in ipairs(source.lines) do
@@ -339,7 +339,7 @@ local function declared_names(source)
   return found
 end
 
--- name -> sources that define a function or constant of it at the beginning of a line
+-- name -> sources that define a function or constant of this name at the beginning of a line
 local function definitions_of(sources)
   local homes = {}
   for _, source in ipairs(sources) do
@@ -357,9 +357,9 @@ local function definitions_of(sources)
   return homes
 end
 
---- What a header declares is defined in its room or a lower one: who includes the header links against the definition, so that
---- one in a higher room would be a reference upwards that no include shows.
-local function check_links(sources, rooms, path)
+--- Declarations of a header are defined in its subfolder or a lower one: files that include the header link against the definition, so a definition
+--- in a higher subfolder would be an upward reference without an include.
+local function check_links(sources, subfolders, path)
   local homes = definitions_of(sources)
   local excepted = {}  -- by header, then name: the line of the exception; false once it was needed
   for _, row in ipairs(read_table(path, "declares what lies higher")) do
@@ -368,20 +368,20 @@ local function check_links(sources, rooms, path)
     excepted[quoted(row.header)[1]] = names
   end
   for _, source in ipairs(sources) do
-    local order = rooms[source.module]
-    if source.path:find "%.h$" and source.room and order then
+    local order = subfolders[source.module]
+    if source.path:find "%.h$" and source.subfolder and order then
       for _, declared in ipairs(declared_names(source)) do
         local name, line = table.unpack(declared)
-        local lowest, home  -- of the definitions in its module; overloads share names
+        local lowest, home  -- the lowest of the definitions in its module; overloads share names
         for _, other in ipairs(homes[name] or {}) do
-          local place = other.module == source.module and (order[other.room] or math.huge)
+          local place = other.module == source.module and (order[other.subfolder] or math.huge)
           if place and (not lowest or place < lowest) then lowest, home = place, other end
         end
         local exceptions = excepted[source.path] or {}
-        if lowest and lowest > order[source.room] and exceptions[name] ~= nil then
+        if lowest and lowest > order[source.subfolder] and exceptions[name] ~= nil then
           exceptions[name] = false
-        elseif lowest and lowest > order[source.room] then
-          fault(at(source, line), "room %s of %s declares '%s', which is defined higher, in src/%s", source.room,
+        elseif lowest and lowest > order[source.subfolder] then
+          fault(at(source, line), "subfolder %s of %s declares '%s', which is defined higher, in src/%s", source.subfolder,
                 source.module, name, home.path)
         end
       end
@@ -389,12 +389,12 @@ local function check_links(sources, rooms, path)
   end
   for header, names in pairs(excepted) do
     for name, line in pairs(names) do
-      if line then fault(path .. ":" .. line, "%s does not declare '%s' for a higher room", header, name) end
+      if line then fault(path .. ":" .. line, "%s does not declare '%s' for a higher subfolder", header, name) end
     end
   end
 end
 
---- Folders of stdlib in their order -> their places, and its modules by the names that scripts write: clench.plan.job.
+--- Folders of stdlib -> index in their order, and its modules by the names in scripts: clench.plan.job.
 local function read_stdlib(path)
   local order, modules = {}, {}
   for i, row in ipairs(read_table(path, "folder of stdlib")) do order[quoted(row["folder of stdlib"])[1]] = i end
@@ -409,20 +409,20 @@ local function read_stdlib(path)
   return order, modules
 end
 
--- modules that the code of a file names, in require, as a task of a thread, or as a function of clench; comments apart
+-- modules named in the code of a file, in require, as a task of a thread, or as a function of clench; comments are ignored
 local function find_uses(module, modules)
   local line = 0
   for text in (read(module.path) .. "\n"):gmatch "(.-)\r?\n" do
     line = line + 1
     for name in text:gsub("%-%-.*$", ""):gmatch "clench%.[%w_.]+" do
-      -- clench.study.shake(...).survived: the longest name that is a module
+      -- clench.study.shake(...).survived: the longest prefix that is a module
       while name and not modules[name] do name = name:match "^(.+)%.[^.]*$" end
       if name and modules[name] ~= module then table.insert(module.uses, {modules[name], line, name}) end
     end
   end
 end
 
---- A folder of stdlib uses itself, lower ones, and files of stdlib itself; of these, one that uses a folder stands above it.
+--- A folder of stdlib may use itself, lower folders, and files directly in stdlib, which rank as high as the highest folder that they use.
 local function check_stdlib(path)
   local order, modules = read_stdlib(path)
   for _, module in ipairs(modules) do
@@ -432,7 +432,7 @@ local function check_stdlib(path)
     end
     module.level = module.folder and order[module.folder] or 0
   end
-  -- files of stdlib itself rise until they stand no lower than what they use
+  -- raises the level of files directly in stdlib to that of everything they use
   repeat
     local changed = false
     for _, module in ipairs(modules) do
@@ -459,8 +459,8 @@ local function local_name(text)
   return defined_type(text) or text:match "^using%s+([%w_]+)%s*="
 end
 
---- No two sources of a module that define a constant, type or alias of one name for themselves, unless they are the same
---- alias: unity builds compile sources together, and which ones depends on their number.
+--- No two sources of a module define a constant, type or alias with the same name, except for equal aliases: unity builds compile sources together,
+--- in groups that depend on their number.
 local function check_local_names(sources)
   local first = {}
   for _, source in ipairs(sources) do
@@ -481,11 +481,11 @@ end
 
 local modules, libraries = read_modules "docs/architecture.md", read_libraries "docs/architecture.md"
 local sources = read_sources()
-local rooms = read_rooms("docs/architecture.md", modules)
-check_modules(sources, modules, rooms)
-check_links(sources, rooms, "docs/architecture.md")
+local subfolders = read_subfolders("docs/architecture.md", modules)
+check_modules(sources, modules, subfolders)
+check_links(sources, subfolders, "docs/architecture.md")
 check_stdlib "docs/architecture.md"
-check_circles(sources)
+check_cycles(sources)
 check_types(sources)
 check_local_names(sources)
 local owners = owners_of_names(libraries)

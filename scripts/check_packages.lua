@@ -1,7 +1,7 @@
--- Holds scripts/packages.txt against the CMake files: every library that these ask for has its package listed, and
--- every library listed is asked for. What only tests/ asks for is listed for test or bench.
+-- Checks scripts/packages.txt against the CMake files: every library that these request has its package listed, and every listed library is
+-- requested. Libraries that only tests/ requests are listed for test or bench.
 --   lua5.4 scripts/check_packages.lua [ROOT]
--- One sentence a fault, file:line first; exit code 1 when there is any.
+-- One sentence per fault, file:line first; exit code 1 if there is any.
 local root = arg[1] or "."
 local faults = {}
 
@@ -20,7 +20,7 @@ local function each_line(path, take)
   file:close()
 end
 
---- packages in the list's order: {purpose, package, asked = names that CMake asks for, line}
+--- packages in the order of the list: {purpose, package, asked = names that CMake requests, line}
 local function read_list(path)
   local packages, seen = {}, {}
   each_line(path, function(line, text)
@@ -39,7 +39,7 @@ local function read_list(path)
   return packages
 end
 
---- name -> {path, line} of the first find_package or pkg_check_modules that asks for it
+--- name -> {path, line} of the first find_package or pkg_check_modules that requests it
 local function read_requests(paths)
   local asked = {}
   for _, path in ipairs(paths) do
@@ -68,9 +68,9 @@ end
 
 local list = "scripts/packages.txt"
 local packages, requests = read_list(list), read_requests(cmake_files())
-requests.clench = nil  -- our own, which the embedding test asks for
+requests.clench = nil  -- Clench itself, which the embedding test requests
 for _, entry in ipairs(packages) do
-  local first  -- what asks for it before tests/ does, else anything that does
+  local first  -- a request outside of tests/, else any request
   for _, name in ipairs(entry.asked) do
     local request = requests[name]
     if not request then

@@ -1,12 +1,12 @@
--- Holds comments, documentation and messages against a list of words that the project writes otherwise: American spelling, and phrases that
--- a reader has to read twice. Runs in a stock interpreter:
+-- Checks comments, documentation and messages for words that the project does not use: British spelling, and phrases that are hard to read. Runs in a
+-- stock interpreter:
 --   lua5.4 scripts/check_words.lua [FOLDER...]
--- One line per occurrence, file:line first, with what to write instead; exit code 1 if there is any.
+-- One line per occurrence, file:line first, with the replacement; exit code 1 if there is any.
 local folders = #arg > 0 and arg or {"src", "stdlib", "docs", "tests", "examples", "scripts", "README.md", "CHANGELOG.md"}
 local endings = {h = true, cpp = true, lua = true, md = true, txt = true, cmake = true}
-local skipped = {"tests/data/", "docs/api/", "eigengrasps_test.cpp"}  -- unless they are named
+local skipped = {"tests/data/", "docs/api/", "eigengrasps_test.cpp"}  -- unless given as arguments
 
--- words, as patterns of Lua in lower case, and what is written instead
+-- words, as patterns of Lua in lower case, and their replacements
 local words = {
   {"centre", "center"}, {"centring", "centering"}, {"colour", "color"}, {"neighbour", "neighbor"}, {"%f[%a]metres?%f[%A]", "meter"},
   {"millimetre", "millimeter"}, {"micrometre", "micrometer"}, {"centimetre", "centimeter"}, {"kilometre", "kilometer"},

@@ -1,7 +1,7 @@
 -- scripts/make_models.lua
---- Writes every model file that is made from numbers; the same bytes at each run.
+--- Writes all generated model files; each run gives the same bytes.
 ---   lua5.4 scripts/make_models.lua          writes them, from the project's root
----   lua5.4 scripts/make_models.lua --check  writes nothing, fails when a file is not what it would write
+---   lua5.4 scripts/make_models.lua --check  writes nothing, fails if a file differs from the generated one
 ---   lua5.4 scripts/make_models.lua barrett  one set only, see scripts/models/sets.lua
 package.path = "scripts/?.lua;" .. package.path
 

@@ -1,8 +1,8 @@
 -- scripts/render_models.lua
---- Draws every model and world that comes with Clench, each into a picture of its own.
----   build/release/clench run scripts/render_models.lua [FOLDER] [PATTERN]
---- writes FOLDER/hands_barrett.png and so on, build/models unless named; only those whose path matches PATTERN.
---- Hands stand there three times: open from the front and from behind, and closed.
+--- Draws every shipped model and world, each into a separate picture.
+--- build/release/clench run scripts/render_models.lua [FOLDER] [PATTERN]
+--- writes FOLDER/hands_barrett.png and so on, by default in build/models; only models whose path matches PATTERN. Hands are shown three times: open
+--- from the front and from behind, and closed.
 local clench = require "clench"
 local folder, pattern = ...
 folder = folder or "build/models"
@@ -19,14 +19,14 @@ local function bounds(bodies)
   return low, high
 end
 
--- hands whose fingers lie along y are stood up; those of the others point up by themselves
+-- hands whose fingers lie along y are turned upright; those of the others already point up
 local lying = {dlr = true, human16 = true, human20 = true, robonaut = true, shadow = true}
 -- arms in a posture that shows their joints [rad]
 local postures = {puma560 = {0.6, 0.7, -2.9, 0, 0.7, 0}, ur5 = {2.5, -2, -1.6, -1, 1.57, 0}}
 
 local function name_of(path) return path:match "([^/]+)%.%w+$" end
 
---- the hand three times in a row, on z = 0, and the camera before it
+--- the hand three times in a row, on z = 0, and the camera in front of it
 local function three_hands(path)
   local up = clench.pose {rpy = {lying[name_of(path)] and math.pi / 2 or 0, 0, 0}}
   local world, place, tallest = clench.world(), {}, 0.2
@@ -36,7 +36,7 @@ local function three_hands(path)
     local low, high = bounds {hand.base, table.unpack(hand.links)}
     place[i] = {hand, turn, low, high}
     tallest = math.max(tallest, high[1] - low[1], 0.7 * (high[3] - low[3]))
-    -- out of the way of the next
+    -- moved aside before the next one is added
     hand.pose = clench.pose {xyz = {10 * i, 0, 0}} * turn
   end
   for i, one in ipairs(place) do
@@ -66,7 +66,7 @@ local scenes = {
   obstacles = function(path) return alone("add_obstacle", path) end,
   worlds = function(path)
     local world = clench.load(path)
-    -- an arm's default velocities are no way to close it
+    -- an arm has no closing motion
     for _, robot in ipairs(world.robots) do
       if #world.objects > 0 and not robot.source:find "arms/" then robot:autograsp() end
     end

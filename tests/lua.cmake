@@ -3,7 +3,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(LUA_CXX REQUIRED IMPORTED_TARGET lua5.4-c++)
 pkg_check_modules(LUA_C REQUIRED IMPORTED_TARGET lua5.4)
 
-# models are found wherever the build tree lies
+# models are found for any location of the build tree
 function(lua_test name)
   set(environment "CLENCH_MODELS=${PROJECT_SOURCE_DIR}")
   if(CLENCH_SANITIZE)
@@ -13,7 +13,7 @@ function(lua_test name)
   set_tests_properties("${name}" PROPERTIES ENVIRONMENT "${environment}" SKIP_RETURN_CODE 77)
 endfunction()
 
-# the same claims with a Lua that throws and one that jumps
+# the same tests with a Lua that throws and one that uses longjmp
 file(GLOB script_sources CONFIGURE_DEPENDS script/*_test.cpp)
 clench_test_program(test_script_cxx ${script_sources})
 clench_test_program(test_script_c $<TARGET_OBJECTS:test_script_cxx>)
@@ -32,7 +32,7 @@ if(NOT CLENCH_VIEWER)
   set_source_files_properties(app/view_verb_test.cpp PROPERTIES HEADER_FILE_ONLY ON)
 endif()
 clench_test_program(test_app ${app_sources})
-# grasps' epsilon by a program that shares no code with the engine
+# epsilon of grasps by a program that shares no code with the engine
 pkg_check_modules(QHULL_R REQUIRED IMPORTED_TARGET qhull_r)
 add_executable(recompute_epsilon app/recompute_epsilon.cpp bench/peer_qhull.cpp)
 target_include_directories(recompute_epsilon PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
@@ -42,7 +42,7 @@ target_compile_definitions(test_app PRIVATE
   CLENCH_COMMAND="$<TARGET_FILE:clench_app>" RECOMPUTE_EPSILON="$<TARGET_FILE:recompute_epsilon>")
 add_dependencies(test_app clench_app recompute_epsilon)
 if(CLENCH_SANITIZE)
-  # searches run beside the other tests; the longest ones are left out: the engine's part of them has its tests in C++
+  # searches run in parallel to the other tests; the longest ones are left out: C++ tests cover the engine's part of them
   set(long "*of an independent program*,*--verify shakes*,*--force-ratio*")
   set(searches "*search*,*list*,*plan*,*Ctrl-C*")
   lua_test(test_app_searches test_app "--test-case=${searches}" "--test-case-exclude=${long}")
@@ -53,17 +53,17 @@ else()
 endif()
 
 file(GLOB_RECURSE lua_files RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS lua/*_test.lua)
-if(CLENCH_SANITIZE)  # these draw and close hands for minutes there; what they call has its tests in C++
+if(CLENCH_SANITIZE)  # these draw and close hands for minutes there; C++ tests cover the functions that they call
   list(FILTER lua_files EXCLUDE REGEX "(approach|displaced|examples|jaws|log|models|measures|motion_study|plan|plan_level|plan_pause|plan_resume|plan_starts|plan_touch|supports|urdf_back)_test")
 endif()
 foreach(path ${lua_files})
   lua_test("${path}" clench_app test ${path})
-  # its last line, where something was skipped and nothing failed; COST: long ones come first
+  # the last line of output if something was skipped and nothing failed; COST: long ones start first
   set_tests_properties("${path}" PROPERTIES COST 10 SKIP_REGULAR_EXPRESSION "[0-9]+ passed, 0 failed, [1-9][0-9]* skipped\n$")
 endforeach()
 
 if(NOT CLENCH_SANITIZE)
-  # some calls and files of the fuzzers, which find nothing, in a scratch folder of copies that they may spoil
+  # some calls and files of the fuzzers, without findings, in a scratch folder of copies that they may overwrite
   set(fuzz ${CMAKE_CURRENT_BINARY_DIR}/fuzz_root)
   set(copies "rm -rf ${fuzz} && mkdir -p ${fuzz}/build && cp -r models worlds tests/data/seeds ${fuzz}")
   lua_test("fuzz: scratch folder" bash -c "${copies} && cd ${fuzz} && ls models/hands/parallel_jaw/*.cfg seeds/grasps.* >list")
@@ -72,7 +72,7 @@ if(NOT CLENCH_SANITIZE)
   set_tests_properties("fuzz: scratch folder" PROPERTIES FIXTURES_SETUP fuzz_root)
   set_tests_properties("fuzz: calls" "fuzz: files" PROPERTIES WORKING_DIRECTORY ${fuzz} FIXTURES_REQUIRED fuzz_root)
 
-  lua_test("docs/api is what the bindings say" clench_app doc docs/api --check)
+  lua_test("docs/api agrees with the bindings" clench_app doc docs/api --check)
 
   lua_test("stock Lua loads the module" ${CMAKE_COMMAND} -E env "LUA_CPATH=$<TARGET_FILE_DIR:clench_module>/?.so"
            ${LUA54} tests/embed/stock_lua.lua)

@@ -1,5 +1,5 @@
 -- scripts/models/arms.lua
---- Arms: a Puma 560 and a six-axis collaborative arm after the UR5. Both stand on z = 0. See the README.md beside each.
+--- Arms: a Puma 560 and a six-axis collaborative arm modeled on the UR5. Both have their base at z = 0. See the README.md next to each.
 local shapes = require "clench.shapes"
 local build = require "models.build"
 local robot = require "models.robot"

@@ -1,5 +1,5 @@
 -- scripts/models/barrett.lua
---- A three-fingered hand after the BarrettHand BH8-262: see models/hands/barrett/README.md for the figures.
+--- A three-fingered hand modeled on the BarrettHand BH8-262: see models/hands/barrett/README.md for the dimensions.
 local shapes = require "clench.shapes"
 local build = require "models.build"
 local eigengrasps = require "models.eigengrasps"
@@ -60,7 +60,7 @@ end
 local function palm()
   local plate = shapes.prism {build.belt({-25, 0}, 35, {25, 0}, 35, 16), 12, rounding = 2.5, segments = 3}
   local pad = shapes.prism {build.belt({-23, 0}, 27, {23, 0}, 27, 16), 6, rounding = 1, segments = 2}
-  -- the third finger's fork stands still: outlines in y and z, stacked along x
+  -- the third finger's fork is fixed: outlines in y and z, stacked along x
   local cheeks = build.z_to_x(build.fork(build.belt({-50, -1}, 11.4, {-47, -32}, 13), 7.8, 11.8, 1.2))
   local web = build.z_to_x(build.plate({{-58, -44}, {-18, -44}, {-18, -13.5}, {-58, -13.5}}, -9, 9, 1.5))
   local axle = build.z_to_x(build.drum(-50, -1, 5.4, -12.6, 12.6, 20))
@@ -76,7 +76,7 @@ local function palm()
   }
 end
 
--- the published weight of the whole hand, 1180 g, shared out by volume and thickness of the parts
+-- the published weight of the complete hand, 1180 g, distributed by volume and thickness of the parts
 local bodies = {
   {"models/hands/barrett/iv/palm.iv", about = "palm and motor housing of a three-fingered hand",
    material = "plastic", mass = 690, parts = palm()},

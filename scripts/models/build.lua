@@ -1,5 +1,5 @@
 -- scripts/models/build.lua
---- Pieces that the hands are built from. Fingers lie along x, bend about z, and touch with their +y side [mm].
+--- Building blocks of hands. Fingers lie along x, bend about z, and touch with their +y side [mm].
 local shapes = require "clench.shapes"
 local build = {}
 
@@ -35,7 +35,7 @@ local function between(sections, name, default, i, t)
          (t3 - t2) * step * slope(i + 1)
 end
 
---- a superellipse of the section, `scale` times as large, moved by `ahead` along its own normal
+--- a superellipse of the section, scaled by `scale`, moved by `ahead` along its normal
 local function superellipse(s, sides, scale, ahead)
   local lean, ring = math.rad(s.lean), {}
   local function power(x) return (x < 0 and -1 or 1) * math.abs(x) ^ (2 / s.n) end
@@ -101,8 +101,8 @@ function build.fork(outline, inner, outer, rounding)
   return shapes.union {cheek, shapes.mirror(cheek, "z")}
 end
 
---- A phalanx of a mechanical finger, from its joint at x = -length to the next one at x = 0: a drum at its own
---- joint, a body, cheeks around the next joint, a pad.
+--- A phalanx of a mechanical finger, from its joint at x = -length to the next one at x = 0: a drum at its own joint, a body, cheeks around the next
+--- joint, a pad.
 ---@param o {length: number, drum: number, grip: number, wide: number[], high: number[], axle?: number, inner?: number,
 ---  pad?: number[], shell: number[], steel: number[], rubber: number[]}
 ---  drum: radius at its joint; grip: half its length; wide, high: sizes of the body at both ends; axle: radius of the
@@ -157,10 +157,10 @@ function build.belt(a, ra, b, rb, steps)
   return points
 end
 
---- Turns what was built along z so that it lies along x (z to x, x to y, y to z).
+--- Turns a mesh built along z so that it lies along x (z to x, x to y, y to z).
 function build.z_to_x(mesh) return shapes.turn(mesh, {1, 1, 1}, 2 * math.pi / 3) end
 
---- Turns what was built along z so that it lies along y (z to y, y to x, x to z).
+--- Turns a mesh built along z so that it lies along y (z to y, y to x, x to z).
 function build.z_to_y(mesh) return shapes.turn(mesh, {1, 1, 1}, -2 * math.pi / 3) end
 
 return build

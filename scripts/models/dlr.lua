@@ -1,5 +1,5 @@
 -- scripts/models/dlr.lua
---- A four-fingered hand after the DLR Hand II: see models/hands/dlr/README.md for the figures.
+--- A four-fingered hand modeled on the DLR Hand II: see models/hands/dlr/README.md for the dimensions.
 local shapes = require "clench.shapes"
 local build = require "models.build"
 local eigengrasps = require "models.eigengrasps"
@@ -7,7 +7,7 @@ local sites = require "models.sites"
 
 local silver, steel, black, rubber = {0.70, 0.72, 0.74}, {0.38, 0.40, 0.42}, {0.12, 0.125, 0.13}, {0.15, 0.15, 0.16}
 
--- where the fingers stand on the palm: see the chains of dlr.cfg
+-- positions of the fingers on the palm: see the chains of dlr.cfg
 local fingers = {{x = -40, y = 128, turn = 6}, {x = 0, y = 133, turn = 0}, {x = 40, y = 128, turn = -6}}
 local finger_height, thumb = -6, {30, 24, 30}
 
@@ -59,7 +59,7 @@ local function distal()
   }
 end
 
---- a socket that a knuckle's ball stands out of, with the finger along `turn` degrees from +y
+--- a socket around a knuckle's ball, with the finger along `turn` degrees from +y
 local function socket(finger)
   local ring = shapes.lathe {segments = 30, profile = shapes.outline {
     {0, -30}, {16.5, -30, 2}, {16.5, -13, 3}, {17.4, -5, 1.2}, {15, -4, 0.8}, {11, -9}, {0, -9}, segments = 2,
@@ -79,7 +79,7 @@ local function palm()
   local back = shapes.outline {
     {-27, 20, 10}, {27, 20, 10}, {42, 58, 16}, {44, 102, 10}, {-44, 102, 10}, {-36, 58, 16}, segments = 4,
   }
-  -- the thumb stands on a post in front of the palm
+  -- the thumb is on a post in front of the palm
   local post = shapes.lathe {segments = 30, profile = shapes.outline {
     {0, -40}, {21, -40, 2}, {20, -24, 4}, {16.5, -18, 4}, {17.4, -5, 1.2}, {15, -4, 0.8}, {11, -9}, {0, -9},
     segments = 2,
@@ -98,7 +98,7 @@ local function palm()
   return parts
 end
 
--- the published weight of the whole hand, 1800 g, shared out by volume
+-- the published weight of the complete hand, 1800 g, distributed by volume
 local bodies = {
   {"models/hands/dlr/iv/palm.iv", about = "palm and wrist of a four-fingered hand",
    material = "rubber", mass = 880, parts = palm()},

@@ -1,5 +1,5 @@
 -- scripts/models/eigengrasps.lua
---- Text of an eigengrasp file (.egr): directions in the space of the DOFs, and the posture they start from.
+--- Text of an eigengrasp file (.egr): directions in the space of the DOFs, and their initial posture.
 
 local function line(numbers)
   local out = {}
@@ -7,7 +7,7 @@ local function line(numbers)
   return table.concat(out, " ")
 end
 
---- directions made orthogonal one after the other, each of unit length
+--- directions orthogonalized one after the other, each of unit length
 --- source  Golub & Van Loan, Matrix Computations, 5.2: modified Gram-Schmidt
 local function orthonormal(directions)
   local out = {}
@@ -27,9 +27,9 @@ local function orthonormal(directions)
   return out
 end
 
---- @param e {origin: number[], [integer]: {value: number, [integer]: number}}  origin in degrees or mm, of each DOF;
----   directions of any length; value: share of the variance, or 1
---- @param slides? boolean[]  DOFs that slide: they count in meters in the file
+---@param e {origin: number[], [integer]: {value: number, [integer]: number}}  origin in degrees or mm, of each DOF; directions of any length; value:
+---share of the variance, or 1
+---@param slides? boolean[]  prismatic DOFs, which are in meters in the file
 return function(e, slides)
   local origin = {}
   for i, x in ipairs(e.origin) do origin[i] = slides and slides[i] and x * 1e-3 or math.rad(x) end

@@ -1,6 +1,6 @@
 -- scripts/models/grippers.lua
---- Grippers for industry: a parallel jaw, two fingers on linkages, two on springs, three that adapt. The flange is at
---- z = 0 or below, the fingers point along +z. See the README.md beside each for the figures.
+--- Industrial grippers: a parallel jaw, two fingers on linkages, two on springs, and an adaptive one with three fingers. The flange is at z = 0 or
+--- below, the fingers point along +z. See the README.md next to each for the dimensions.
 local shapes = require "clench.shapes"
 local build = require "models.build"
 local robot = require "models.robot"
@@ -29,7 +29,7 @@ local function flange(radius, low, high, color)
   return {shapes.cylinder {radius, from = {0, 0, low}, to = {0, 0, high}, chamfer = 1, segments = 32}, color = color}
 end
 
--- two jaws that slide along x, each 40 mm; the pads' tips 58 mm before the housing
+-- two jaws that slide along x, each 40 mm; the pads' tips are 58 mm in front of the housing
 local function parallel_jaw()
   local stroke, reach = 40, 58
   local housing = slab(shapes.outline {{-101, 4, 12}, {101, 4, 12}, {101, 46, 6}, {90, 66, 6}, {-90, 66, 6},
@@ -41,7 +41,7 @@ local function parallel_jaw()
      color = gray},
     {slab({{-34, 20}, {34, 20}, {34, 40}, {-34, 40}}, -31.6, 31.6, 0.4), color = orange},
   })
-  -- a jaw: x along the finger, y towards the other jaw; closed, the pads are a tenth of a millimeter apart
+  -- a jaw: x along the finger, y towards the other jaw; when closed, the pads are a tenth of a millimeter apart
   local jaw = body("parallel_jaw", "jaw", "jaw with a pad", 65, "rubber", {
     {build.plate({{-56.6, -24}, {-42, -24}, {-42, -2}, {-56.6, -2}}, -10, 10, 1), color = steel},
     {build.spine {{x = -43, y = -12, h = 19, w = 19, r = 2}, {x = -30, y = -10, h = 14, w = 19, r = 2},
@@ -96,7 +96,7 @@ local function adaptive()
     {build.fork(build.belt({-crank, 0}, 8, {0, 0}, 7, 5), 14.6, 18, 0.6), color = gray},
     {build.drum(0, 0, 4, -18.5, 18.5, 16), color = steel}, {build.drum(-crank, 0, 4, -18.5, 18.5, 16), color = steel},
   })
-  -- x along the finger, y towards the other one; closed, the pads are a quarter of a millimeter apart
+  -- x along the finger, y towards the other one; when closed, the pads are a quarter of a millimeter apart
   local tip = body("adaptive_gripper", "fingertip", "fingertip with a pad", 45, "rubber", {
     {build.drum(-reach, 0, 7, -13.5, 13.5, 24), color = steel},
     {build.plate(shapes.outline {{-58, -6, 2}, {-46, -7.5, 2}, {-3, 8, 2}, {0, 12, 2}, {0, 19.6, 1}, {-37.5, 19.6, 1}, {-58, 6, 2}, segments = 2},
@@ -186,7 +186,7 @@ local function tendon()
   }
 end
 
--- where the fingers of the three-fingered gripper stand
+-- positions of the fingers of the three-fingered gripper
 local base_y, base_x = 38, 36
 
 local function three_finger_palm()
@@ -211,7 +211,7 @@ local function three_finger_palm()
   return body("three_finger", "palm", "palm and housing of a three-fingered gripper", 1700, "rubber", parts)
 end
 
--- three fingers of three links that give way one after the other; two of them turn on the palm
+-- three fingers of three links that yield one after the other; two of them turn on the palm
 local function three_finger()
   local lengths, palm = {57, 39, 36}, three_finger_palm()
 

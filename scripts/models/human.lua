@@ -1,6 +1,6 @@
 -- scripts/models/human.lua
---- A right human hand, palm up: x towards the thumb, y along the middle finger, z out of the palm. See
---- models/hands/human/README.md for the figures.
+--- A right human hand, palm up: x towards the thumb, y along the middle finger, z out of the palm. See models/hands/human/README.md for the
+--- dimensions.
 local shapes = require "clench.shapes"
 local build = require "models.build"
 local robot = require "models.robot"
@@ -11,7 +11,7 @@ local skin, nail, cuff = {0.82, 0.60, 0.48}, {0.92, 0.76, 0.70}, {0.23, 0.30, 0.
 local flesh = 1.16e-3
 local folder = "models/hands/human/"
 
--- lengths of the bones as parts of the hand's length; girth: width at the knuckle [mm]
+-- lengths of the bones as fractions of the hand's length; girth: width at the knuckle [mm]
 local hand = 190
 local fingers = {
   {name = "index", x = 27, y = 86, turn = -4, girth = 18.2, 0.245 * hand, 0.143 * hand, 0.097 * hand},
@@ -114,7 +114,7 @@ add("thumb1", "metacarpal and ball of the thumb", metacarpal())
 add("thumb2", "proximal phalanx of the thumb", thumb_proximal())
 add("thumb3", "distal phalanx of the thumb", distal(thumb[3], 19.6, 15.6))
 
---- Chains with or without free distal joints of the fingers; without, these turn 2/3 as far as the middle ones.
+--- Chains with or without independent distal joints of the fingers; otherwise these turn 2/3 as far as the middle ones.
 local function chains(free)
   local list, dof = {}, 0
   local function take()
@@ -147,7 +147,7 @@ local function chains(free)
   return list
 end
 
---- spread does not close; maximal torques by eye, from 1.5 N m at a knuckle to 0.3 N m at a fingertip
+--- spread joints do not close; maximal torques are estimates, from 1.5 N m at a knuckle to 0.3 N m at a fingertip
 local function dofs(free)
   local list = {}
   local function motor(speed, effort)
@@ -182,7 +182,7 @@ local components = {
   {value = 0.02, spread = {0.1, 0, 0, 0.1}, bend = {-0.3, 0.4, 0.25, -0.4}, curl = {0.5, -0.4, -0.4, 0.6},
    thumb = {0, -0.1, 0.5, -0.6}},
 }
--- the posture in their midst [degrees]
+-- their mean posture [degrees]
 local mean = {spread = {-4, 0, 2, 4}, bend = {33, 36, 36, 34}, curl = {40, 42, 40, 36}, thumb = {-5, 8, 16, 22}}
 
 local function postures(free)

@@ -3,7 +3,7 @@
 local shapes = require "clench.shapes"
 local inventor = {}
 
---- a number with up to four decimals and no more characters than it needs
+--- a number with up to four decimals and no more characters than required
 local function number(x)
   local text = ("%.4f"):format(x):gsub("0+$", ""):gsub("%.$", "")
   return text == "-0" and "0" or text
@@ -19,7 +19,7 @@ local function rounded(mesh)
   return {vertices = vertices, triangles = mesh.triangles}
 end
 
---- what a file must not hold: openings, triangles without area
+--- faults that a file must not have: openings, triangles without area
 local function check(mesh, subject)
   local closed, why = shapes.closed(mesh)
   if not closed then error(subject .. ": expected a closed part, but " .. why, 0) end

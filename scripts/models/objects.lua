@@ -1,5 +1,5 @@
 -- scripts/models/objects.lua
---- Things to grasp. All stand on z = 0: see models/objects/README.md for the figures.
+--- Objects to grasp. All stand on z = 0: see models/objects/README.md for the dimensions.
 local shapes = require "clench.shapes"
 
 -- densities [g/mm^3]

@@ -1,5 +1,5 @@
 -- scripts/models/obstacles.lua
---- Things in the way. All stand on z = 0: see models/obstacles/README.md for the figures.
+--- Obstacles. All stand on z = 0: see models/obstacles/README.md for the dimensions.
 local shapes = require "clench.shapes"
 
 -- densities [g/mm^3]
@@ -30,7 +30,7 @@ local function shelf()
   return parts
 end
 
---- a column between two plates, to put an arm on
+--- a column between two plates, as a pedestal for an arm
 local function stand()
   return {
     {block(420, 420, 15, {0, 0, 7.5}), color = {0.25, 0.27, 0.30}},

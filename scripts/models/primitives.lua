@@ -1,5 +1,5 @@
 -- scripts/models/primitives.lua
---- The objects' shapes in a few cubes, spheres, cylinders and cones, for planners [mm].
+--- The objects' shapes approximated by a few cubes, spheres, cylinders and cones, for planners [mm].
 
 local function row(...)
   local out = {}
@@ -13,15 +13,14 @@ local kinds = {
   Cone = {"bottomRadius", "height"},
 }
 
---- @param about string
---- @param list table[]  {kind, sizes..., at = center, turn? = axis and angle}; cylinders and cones stand along z unless
----   turned, cubes have x, y, z
+---@param about string
+---@param list table[]  {kind, sizes..., at = center, turn? = axis and angle}; cylinders and cones are along z unless turned, cubes have x, y, z
 local function file(about, list)
   local out = {"#Inventor V2.1 ascii", "# " .. about .. "; made by scripts/make_models.lua [mm]", "Separator {"}
   for _, p in ipairs(list) do
     local fields = {}
     for i, name in ipairs(kinds[p[1]]) do fields[i] = name .. " " .. row(p[i + 1]) end
-    -- Inventor's cylinders and cones stand along y
+    -- Inventor's cylinders and cones are along y
     local turn = p.turn or (p[1] == "Cylinder" or p[1] == "Cone") and {1, 0, 0, math.pi / 2}
     out[#out + 1] = "  Separator {"
     out[#out + 1] = "    Translation { translation " .. row(table.unpack(p.at)) .. " }"

@@ -1,6 +1,6 @@
 -- scripts/models/robonaut.lua
---- A right hand after NASA's Robonaut: x towards the thumb, y along the fingers, z out of the palm, the wrist at the
---- origin. See models/hands/robonaut/README.md for the figures.
+--- A right hand modeled on NASA's Robonaut: x towards the thumb, y along the fingers, z out of the palm, the wrist at the origin. See
+--- models/hands/robonaut/README.md for the dimensions.
 local shapes = require "clench.shapes"
 local build = require "models.build"
 local robot = require "models.robot"
@@ -15,7 +15,7 @@ local yoke_length, finger = 8.0518, {45.72, 26.67, 23}
 local thumb = {46, 30}
 local knuckle_z = -6
 local knuckles = {{27, 90, -4}, {3, 90, 0}}
--- the two outer fingers stand on metacarpals that fold about a hinge along y
+-- the two outer fingers are on metacarpals that fold about a hinge along y
 local hinge = {-9, -8}
 local outer = {{side = 13.5, y = 85}, {side = 39, y = 77}}
 local thumb_base, thumb_x, thumb_z = {34, 22, 6}, {1, 0, 0.8}, {-0.25, -1, 0.1}
@@ -37,7 +37,7 @@ local function yoke()
   }
 end
 
---- carries the outer fingers: built in the palm's frame, seen from the hinge's
+--- carries the outer fingers: built in the palm's frame, transformed to the hinge's
 local function metacarpal(k)
   local o = outer[k]
   local x = hinge[1] - o.side
@@ -54,7 +54,7 @@ local function metacarpal(k)
   }
   for _, part in ipairs(parts) do
     local seen = robot.seen_from(part[1], {hinge[1], o.y, hinge[2]}, {0, 0, 1}, {0, 1, 0})
-    -- the frame after the hinge's joint: z of before is -y now
+    -- the frame after the hinge's joint: the former z is now -y
     part[1] = shapes.turn(seen, {1, 0, 0}, math.pi / 2)
   end
   return parts

@@ -49,7 +49,7 @@ function robot.frame(origin, x, z)
   return ("T (%s)[%s]"):format(words(robot.quaternion(x, y, z)), words(origin))
 end
 
---- The shape as seen from such a frame.
+--- The shape in such a frame.
 function robot.seen_from(shape, origin, x, z)
   z = unit(z)
   local y = unit(cross(z, x))

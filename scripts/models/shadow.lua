@@ -1,6 +1,6 @@
 -- scripts/models/shadow.lua
---- A right hand after the Shadow Dexterous Hand: x towards the thumb, y along the fingers, z out of the palm, the wrist
---- at the origin. See models/hands/shadow/README.md for the figures.
+--- A right hand modeled on the Shadow Dexterous Hand: x towards the thumb, y along the fingers, z out of the palm, the wrist at the origin. See
+--- models/hands/shadow/README.md for the dimensions.
 local shapes = require "clench.shapes"
 local build = require "models.build"
 local robot = require "models.robot"
@@ -51,7 +51,7 @@ local function palm()
     {build.plate(plate, -13, 10, 3), color = black}, {build.plate(pad, 9, 13.5, 1.5), color = blue},
     {build.plate(back, -16, -12, 1.2), color = steel},
   }
-  -- the knuckles stand on posts between two plates
+  -- the knuckles are on posts between two plates
   for _, f in ipairs(fingers) do
     local y = f[2]
     local post = shapes.outline {{f[1] - 8.4, y - 22}, {f[1] + 8.4, y - 22}, {f[1] + 7.4, y - 2, 4},
@@ -61,7 +61,7 @@ local function palm()
                                           segments = 12},
                          color = steel}
   end
-  -- the thumb's roll axis leans halfway between fingers and side
+  -- the thumb's roll axis is halfway between the directions of fingers and side
   local function along(k) return {thumb_base[1] + k * half, thumb_base[2] + k * half, thumb_base[3]} end
   parts[#parts + 1] = {shapes.cylinder {13, from = along(-26), to = along(-11), chamfer = 1.5, segments = 16},
                        color = gray}
@@ -93,7 +93,7 @@ local function body(name, about, mass, material, parts)
   return {folder .. "iv/" .. name .. ".iv", about = about, material = material, mass = mass, parts = parts}
 end
 
--- the published weight of hand and forearm, 4.3 kg; the links' shares by their size
+-- the published weight of hand and forearm, 4.3 kg, distributed to the links by size
 local proximal = body("proximal", "proximal link of a finger", 30, "plastic", phalanx {
   length = finger[1], drum = 8.6, grip = 8, wide = {17.4, 16.6}, high = {17.4, 15}, axle = 7.8, inner = 5.2,
   pad = {-35, -12, 2},

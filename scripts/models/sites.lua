@@ -39,7 +39,7 @@ local function row(numbers, format)
   return table.concat(out, " ")
 end
 
---- the whole surface of a body that models.inventor writes
+--- the complete surface of a body that models.inventor writes
 local function surface(body)
   local meshes = {}
   for i, part in ipairs(body.parts) do meshes[i] = part[1] end

@@ -1,9 +1,9 @@
 -- scripts/models/tools.lua
---- Long things to grasp, which lie along x on z = 0: see models/objects/README.md for the figures.
+--- Long objects to grasp, which lie along x on z = 0: see models/objects/README.md for the dimensions.
 local shapes = require "clench.shapes"
 local build = require "models.build"
 
---- what was built along x with its back towards y: y becomes z
+--- a mesh built along x with its back towards y: y becomes z
 local function upright(mesh) return shapes.turn(mesh, {1, 0, 0}, math.pi / 2) end
 
 --- a propeller plane of wood with its nose towards +x

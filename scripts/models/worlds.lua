@@ -1,5 +1,5 @@
 -- scripts/models/worlds.lua
---- Worlds as text files (.wld): who stands where [mm, rad]. See worlds/README.md for what each shows.
+--- Worlds as text files (.wld): robots, bodies and their poses [mm, rad]. See worlds/README.md for a description of each.
 local robot = require "models.robot"
 local vector = require "clench.shapes.vector"
 
@@ -22,7 +22,7 @@ local function object(name, at, turn)
   return table.concat({"GraspableBody", ("models/objects/%s.iv"):format(name), pose(at, turn)}, "\n")
 end
 
---- state: one number per DOF; a breakaway DOF's is followed by 0 for each of its joints
+--- state: one number per DOF; that of a breakaway DOF is followed by 0 for each of its joints
 local function a_robot(path, state, at, turn)
   return table.concat({"Robot", "models/" .. path .. ".cfg", row(state), pose(at, turn)}, "\n")
 end
@@ -55,7 +55,7 @@ local down, upright = {0, 1, 0, 0}, {half, half, 0, 0}
 -- the palm looks along +x with its fingers towards -y; the same for a gripper
 local sideways, forward = {0, half, 0, half}, {0.5, 0.5, 0.5, 0.5}
 
--- the tall hands stand behind, palms to the front, the grippers before them; each 1 mm above the floor
+-- the tall hands are at the back, palms to the front, and the grippers in front of them; each 1 mm above the floor
 local function gallery()
   local blocks = {obstacle("floor", "stone", {0, 0, -1})}
   local function place(list, y, pitch, turn)
@@ -80,7 +80,7 @@ local function gallery()
   return blocks
 end
 
--- the Puma holds the three-fingered hand beside the glass; wrist and hand are 174.8 mm apart
+-- the Puma holds the three-fingered hand next to the glass; wrist and hand are 174.8 mm apart
 local puma = {0.277772466, 0.625708328, -3.300412191, 0.309085993, 1.123136761, 3.004243047}
 local ur5 = {-1.83401603, -1.391489376, 1.966112735, -0.574623359, 1.307576623, 3.141592654}
 

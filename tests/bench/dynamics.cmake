@@ -1,4 +1,4 @@
-# Our dynamics beside ODE and Bullet; ODE is part of a build, Bullet takes part where it is installed.
+# Clench's dynamics compared with ODE and Bullet; ODE is part of every build, Bullet is used if it is installed.
 add_executable(bench_dynamics bench/dynamics_bench.cpp bench/dynamic_scene.cpp bench/heap_scenes.cpp bench/heap_race.cpp bench/engine_ours.cpp bench/engine_ode.cpp bench/report.cpp)
 target_include_directories(bench_dynamics PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(bench_dynamics PRIVATE clench_dynamics clench_io PkgConfig::ODE)

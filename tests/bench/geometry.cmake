@@ -1,4 +1,4 @@
-# Our queries on meshes beside those of other libraries: each takes part where it is installed.
+# Queries on meshes compared with other libraries, each of which is used if it is installed.
 add_executable(bench_geometry bench/geometry_bench.cpp bench/report.cpp bench/pose_sets.cpp bench/pair_bench.cpp
                bench/point_bench.cpp bench/world_bench.cpp bench/peers.cpp)
 target_include_directories(bench_geometry PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

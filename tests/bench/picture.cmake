@@ -1,4 +1,4 @@
-# Pictures beside bare OpenGL.
+# Pictures compared with bare OpenGL.
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 add_executable(bench_picture bench/picture_bench.cpp bench/peer_bare_gl.cpp bench/report.cpp)
 target_include_directories(bench_picture PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

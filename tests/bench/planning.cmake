@@ -1,4 +1,4 @@
-# The annealing step beside the same step made from FCL and Embree, where both are installed.
+# The annealing step compared with the same step built from FCL and Embree, if both are installed.
 add_executable(bench_planning bench/planning_bench.cpp bench/peer_step.cpp bench/report.cpp)
 target_include_directories(bench_planning PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(bench_planning PRIVATE clench_planning clench_io)

@@ -1,4 +1,4 @@
-# Verdicts of shaken grasps on convex pieces, beside Bullet's, in double precision, where it is installed.
+# Verdicts of shaken grasps on convex pieces, compared with Bullet's in double precision, if it is installed.
 pkg_check_modules(BULLET64 QUIET IMPORTED_TARGET bullet-float64)
 if(BULLET64_FOUND)
   add_executable(bench_verdicts bench/verdicts_bench.cpp bench/verdicts/grip_scene.cpp bench/verdicts/convex_pieces.cpp

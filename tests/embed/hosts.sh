@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installed headers are whole: a host that includes all of them builds with the installed package, and runs. The
-# programs of the page on embedding build with the build folder, and run.
+# Installed headers are complete: a host that includes all of them builds with the installed package, and runs. The
+# programs of the guide page on embedding build with the build folder, and run.
 #   hosts.sh BUILD CMAKE GENERATOR
 set -eu
 build=$1 cmake=$2 generator=$3
@@ -27,7 +27,7 @@ build_hosts beside "$folder/engine.cpp;$folder/scripts.cpp" -DCMAKE_BUILD_TYPE=D
 "$folder/beside/engine"
 "$folder/beside/scripts"
 
-# headers that no public one includes are not installed
+# headers that no public header includes are not installed
 if test -e "$folder/clench/include/clench/io/text/xml.h"; then
   echo "io/text/xml.h is installed, which no public header includes"
   exit 1

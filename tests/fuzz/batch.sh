@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# One batch of the API's fuzzer or of the files', in a process of its own with limits of time and memory. What breaks is
-# kept in build/fuzz/found, once for all batches that break alike: the output, and the file or the calls, made shorter.
+# One batch of the fuzzer of the API or of files, in a separate process with limits of time and memory. Faults are
+# stored in build/fuzz/found, once per signature: the output, and the file or the reduced list of calls.
 #   tests/fuzz/batch.sh PROGRAM api|files SEED CALLS     from the project's root, by scripts/fuzz
-# The last line says how many calls were made: CALLS 1000, of files also which and how many were understood: CALLS 1000 iv 300.
+# The last line gives the number of calls: CALLS 1000; for files also the format and the number of parsed files: CALLS 1000 iv 300.
 set -u
 program=$1 mode=$2 seed=$3 calls=$4
 root=$PWD found=$PWD/build/fuzz/found
@@ -10,8 +10,8 @@ mkdir -p "$found"
 
 export CLENCH_MODELS=. ASAN_OPTIONS=hard_rss_limit_mb=3000:max_allocation_size_mb=3000:allocator_may_return_null=1:handle_sigill=1
 export LSAN_OPTIONS=suppressions=$root/tests/support/lsan.supp:print_suppressions=0
-# of the processor; a batch stops by itself after some seconds and waits for its last call. One that waits for something
-# else is ended, too
+# processor time; a batch normally stops after some seconds and its last call. The timeout also ends a batch that waits
+# for something else
 ulimit -t 100
 limited=(timeout 600)
 ulimit -c 0
@@ -31,7 +31,7 @@ esac
 status=$?
 out=$([ $mode = api ] && echo out || echo "../files/$seed.out")
 
-# keep NAME SIGNATURE FILE [STATEMENTS]: what broke, unless another batch has found the same
+# keep SIGNATURE [FILE or STATEMENT]: stores a fault, unless another batch has found the same
 keep() {
   local name
   name=$mode-$(printf '%s' "$1" | md5sum | cut -c1-8)
@@ -51,7 +51,7 @@ if [ $status -eq 3 ]; then
     if [ $mode = api ]; then keep "$signature" "$number"; else keep "$signature" "$(echo found-$seed-$number.*)"; fi
   done < <(grep -a '^FINDING' "$out")
 elif [ $status -ne 0 ] && grep -qa 'LeakSanitizer has encountered a fatal error' "$out"; then
-  : # the leak checker itself has crashed, as it may where a driver's threads end
+  : # the leak checker itself has crashed, as may happen when threads of a driver end
 elif [ $status -ne 0 ]; then
   signature=$(lua5.4 "$root/tests/fuzz/crash.lua" "$out" $status)
   case $mode in

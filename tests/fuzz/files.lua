@@ -32,7 +32,7 @@ end
 
 local told_of = {"inferred", "repaired", "ignored", "suspicious"}
 
-local said, findings, understood = {}, 0, 0
+local said, findings, parsed = {}, 0, 0
 local function finding(number, what, text, path)
   local signature = judge.signature(what, text)
   if said[signature] then return end
@@ -46,7 +46,7 @@ local function try(number, path)
   local began = os.clock()
   local ok, r = pcall(report.of, path, options_of(path))
   local took = os.clock() - began
-  if ok and r.parsed then understood = understood + 1 end
+  if ok and r.parsed then parsed = parsed + 1 end
   local ending = path:match "[^.]*$"
   if took > max_seconds then finding(number, "slow", ending, path) end
   if not ok then return finding(number, "message", ending .. ": " .. tostring(r), path) end
@@ -100,6 +100,6 @@ while number < count and os.clock() < stop and #good + #bad > 0 do
   if tries < 5 then table.remove(from, place) end
   os.remove(changed)
 end
-print(("CALLS %d %s %d"):format(number, endings[seed % #endings + 1], understood))
+print(("CALLS %d %s %d"):format(number, endings[seed % #endings + 1], parsed))
 collectgarbage()
 os.exit(findings > 0 and 3 or 0, true)

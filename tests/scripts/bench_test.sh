@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# scripts/bench configures anew after it has installed the libraries that it compares with, and writes a table only
-# when told to: run in a folder of its own, with a made-up dpkg-query, cmake and bench program.
+# scripts/bench configures again after it has installed the libraries for comparison, and writes a table only
+# on request: run in a separate folder, with a simulated dpkg-query, cmake and bench program.
 #   bash tests/scripts/bench_test.sh       from the project's root
 set -eu
 root=$(mktemp -d)
@@ -22,7 +22,7 @@ fake bin/cmake 'echo "cmake $*" >>"$CALLS"'
 for what in geometry quality; do
   fake build/release/tests/bench_$what 'echo "bench $*" >>"$CALLS"; exit 3'
 done
-# a build that was configured with the tests, as scripts/test leaves it
+# a build that was configured with the tests, as by scripts/test
 : >"$root/build/release/build.ninja"
 echo "CLENCH_TESTS:BOOL=ON" >"$root/build/release/CMakeCache.txt"
 
@@ -37,4 +37,4 @@ for what in geometry quality; do
   wants "$what alone writes none" "$(tail -n 1 "$CALLS")" "bench "
 done
 run geometry --chekc
-wants "a misspelt option is refused" "$status $said$(cat "$CALLS")" "2 usage: scripts/bench geometry \[--check\] \[--record\]"
+wants "a misspelt option is rejected" "$status $said$(cat "$CALLS")" "2 usage: scripts/bench geometry \[--check\] \[--record\]"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A batch of the fuzzers keeps what breaks the program, once, and makes the calls shorter: run in a folder of its own
-# with a made-up program that breaks at a bad call and a bad file.
+# A batch of the fuzzers stores each fault once, and reduces the list of calls: run in a separate folder
+# with a simulated program that fails for a bad call and a bad file.
 #   bash tests/scripts/fuzz_test.sh       from the project's root
 set -eu
 root=$(mktemp -d)
@@ -11,7 +11,7 @@ cd "$root"
 
 cat >program <<'E2'
 #!/usr/bin/env bash
-# -q run SCRIPT ARGUMENTS: $BREAKS says how
+# -q run SCRIPT ARGUMENTS: fails in the way named by $BREAKS
 breaks() {
   case "$BREAKS" in
     summary) echo "SUMMARY: AddressSanitizer: heap-use-after-free /x/src/io/a.cpp:7 in f(int)"; exit 1 ;;
@@ -37,7 +37,7 @@ esac
 E2
 chmod +x program
 
-# batch MODE SEED HOW: what it says, and what is kept afterwards
+# batch MODE SEED HOW: its output in `said`, and the stored files in `kept`
 batch() { said=$(BREAKS=$3 bash tests/fuzz/batch.sh "$root/program" "$1" "$2" 1000 2>/dev/null); kept=$(ls build/fuzz/found); }
 wants() {
   if [[ "$2" != $3 ]]; then printf 'FAILED %s\n  expected: %s\n  got:    %s\n' "$1" "$3" "$2"; exit 1; fi
@@ -45,15 +45,15 @@ wants() {
 }
 
 batch api 1 nothing
-wants "a batch that finds nothing keeps nothing" "$said|$kept" "CALLS 3|"
+wants "a batch without faults stores nothing" "$said|$kept" "CALLS 3|"
 for how in summary overflow signal wait finding; do
   rm -rf build/fuzz/found
   batch api 1 $how
   wants "a $how is found" "$said" "FOUND api-*CALLS 3"
-  wants "the call that ends in a $how is left alone" "$(cat build/fuzz/found/*.lua)" 'call("v\[3\] = bad(v\[1\])", "bad", 3, true)'
+  wants "the calls are reduced to the one that ends in a $how" "$(cat build/fuzz/found/*.lua)" 'call("v\[3\] = bad(v\[1\])", "bad", 3, true)'
   batch api 2 $how
-  wants "what breaks alike is kept once" "$said" "CALLS 3"
+  wants "an equal fault is stored once" "$said" "CALLS 3"
   batch files 1 $how
-  wants "the file that ends in a $how is kept" "$said|$(cat build/fuzz/found/*.obj)" "FOUND files-*|bad"
-  wants "and cleared away" "$(find build/fuzz/files-tree -name 'fuzz-*' -o -name 'found-*')" ""
+  wants "the file that causes a $how is stored" "$said|$(cat build/fuzz/found/*.obj)" "FOUND files-*|bad"
+  wants "and other files are removed" "$(find build/fuzz/files-tree -name 'fuzz-*' -o -name 'found-*')" ""
 done

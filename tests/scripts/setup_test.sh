@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# scripts/setup installs what is missing and nothing else, and says in one sentence why it cannot: run with a
-# made-up dpkg-query, apt-get, id and sudo, so that nothing is installed.
+# scripts/setup installs exactly the missing packages, and reports in one sentence why it cannot: run with a
+# simulated dpkg-query, apt-get, id and sudo, so that nothing is installed.
 #   bash tests/scripts/setup_test.sh       from the project's root
 set -eu
 bin=$(mktemp -d)
@@ -35,7 +35,7 @@ wants "package lists are fetched when apt does not know a package" "$status $(ca
 rm "$bin/lists"
 fake apt-get 'echo "no such mirror" >&2; exit 100'
 run
-wants "a failure shows what apt-get said" "$status $said" "no such mirror"
+wants "a failure shows the output of apt-get" "$status $said" "no such mirror"
 
 fake id 'echo 1000'
 run
@@ -50,4 +50,4 @@ fake dpkg-query 'shift 3; for p in "$@"; do echo "installed $p"; done'
 run
 wants "nothing missing: nothing is called" "$status $said$(calls)" "installed"
 run --tset
-wants "a misspelt option is refused" "$status $said" "2 usage: scripts/setup [--test | --bench]"
+wants "a misspelt option is rejected" "$status $said" "2 usage: scripts/setup [--test | --bench]"

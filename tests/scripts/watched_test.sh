@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# A test case that executes no assertion fails, one that is skipped says so by the exit code that ctest knows.
+# A test case without assertions fails, and a skipped one ends with the exit code that ctest expects.
 #   bash tests/scripts/watched_test.sh PROGRAM     the program of tests/support/watched_cases.cpp
 set -eu
 program="$1"
 
-# wants CASES CODE TEXT: those test cases together
+# wants CASES CODE TEXT: runs these test cases together
 wants() {
   local status=0 said
   said=$("$program" "--test-case=$1" 2>&1) || status=$?

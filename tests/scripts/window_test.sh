@@ -1,6 +1,6 @@
 #!/bin/bash
-# The viewer's window on a display without a screen, with mouse and keys as a user has them: orbit, autograsp, undo, and leaving with the question.
-# window_test.sh COMMAND: exits with 77 where Xvfb or xdotool is missing
+# The viewer's window on a display without a screen, driven by mouse and keys: orbit, autograsp, undo, and closing with the question about changes.
+# window_test.sh COMMAND: exits with 77 if Xvfb or xdotool is missing
 clench=$1
 for program in Xvfb xdotool; do
   command -v $program >/dev/null || { echo "skipped: $program is not installed"; exit 77; }
@@ -22,11 +22,11 @@ for _ in $(seq 100); do [ -s "$folder/display" ] && break; sleep 0.1; done
 [ -s "$folder/display" ] || { echo "skipped: Xvfb does not start"; exit 77; }
 export DISPLAY=:$(cat "$folder/display")
 
-# an OpenGL that is too old is refused, in one sentence
+# an OpenGL version that is too old is rejected in one sentence
 said=$(MESA_GL_VERSION_OVERRIDE=2.1 timeout 60 "$clench" view 2>&1)
 code=$?
 if [ $code != 1 ] || [ "$(wc -l <<<"$said")" != 1 ] || [[ "$said" != *"the viewer needs OpenGL 3.3"* ]]; then fail "OpenGL 2.1: $code $said"; fi
-# a window beside a console, which draws it
+# a console with a window, which it draws
 said=$(echo 'view:frame() print(view.frames > 0, session.world)' | timeout 60 "$clench" repl --view 2>&1)
 code=$?
 if [ $code != 0 ] || [[ "$said" != "true"*"world"* ]]; then fail "repl --view: $code $said"; fi
@@ -36,7 +36,7 @@ viewer=$!
 children+=($viewer)
 
 value() { sed -n "s/^$1 //p" "$folder/state.txt" 2>/dev/null; }
-# until VALUE is, or is not, a text; at most a minute
+# waits until VALUE is, or is not, a text; at most a minute
 until_value() {
   for _ in $(seq 600); do
     now=$(value "$1")
@@ -44,10 +44,10 @@ until_value() {
       if [ "$2" = is ] && [ "$now" = "$3" ]; then return; fi
       if [ "$2" = is_not ] && [ "$now" != "$3" ]; then return; fi
     fi
-    kill -0 $viewer 2>/dev/null || fail "the window closed while it was waited that '$1' $2 '$3'"
+    kill -0 $viewer 2>/dev/null || fail "the window closed before '$1' $2 '$3'"
     sleep 0.1
   done
-  fail "waited that '$1' $2 '$3', got '$now'"
+  fail "expected '$1' $2 '$3', got '$now'"
 }
 click() {
   for _ in $(seq 600); do
@@ -64,7 +64,7 @@ until_value hash is_not ""
 first=$(value hash)
 xdotool search --sync --onlyvisible --name '^barrett_mug.wld - Clench$' >/dev/null || fail "the title names the file"
 
-# a drag with the left button turns the camera, the wheel brings it nearer
+# a drag with the left button turns the camera, and the wheel moves it closer
 eye=$(value eye)
 xdotool mousemove 500 400 && sleep 0.3 && xdotool mousedown 1 && sleep 0.1 && xdotool mousemove 580 420 && sleep 0.3 && xdotool mouseup 1
 until_value eye is_not "$eye"
@@ -72,7 +72,7 @@ eye=$(value eye)
 xdotool click 4
 until_value eye is_not "$eye"
 
-# while nothing happens no frame is drawn, and the window costs little
+# an idle window draws no frames, and takes little processor time
 sleep 1
 frames=$(value frames)
 ticks() { awk '{print $14 + $15}' /proc/$viewer/stat; }
@@ -81,7 +81,7 @@ sleep 3
 spent=$(($(ticks) - before))
 [ "$(value frames)" = "$frames" ] || fail "an idle window drew frames: $frames, then $(value frames)"
 
-# a key closes the hand, another takes it back
+# a key closes the hand, and another reverts that
 xdotool key ctrl+g
 until_value hash is_not "$first"
 until_value modified is true
@@ -91,7 +91,7 @@ until_value hash is "$first"
 xdotool key ctrl+shift+z
 until_value hash is "$closed"
 
-# what is unsaved is asked about: the window stays, then leaves
+# closing asks about unsaved changes: first the window stays, then it closes
 xdotool key ctrl+q
 click Cancel
 sleep 0.5
@@ -104,4 +104,4 @@ wait $viewer
 code=$?
 [ $code = 0 ] || fail "exit code $code"
 [ -s "$folder/said" ] && fail "the window printed something"
-echo "the window was opened, used and left; idle it took $spent hundredths of a second in 3 s"
+echo "the window was opened, used and closed; when idle it took $spent hundredths of a second in 3 s"

@@ -1,3 +1,3 @@
-// Includes second.h, which includes this one: a circle of two.
+// Includes second.h, which includes this one: a cycle of two.
 #pragma once
 #include "clench/low/second.h"
