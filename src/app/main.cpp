@@ -197,7 +197,8 @@ static void add_serve(CLI::App& app, ServeOptions& serve) {
   add_world_reading(*verb, serve.reading);
   verb->footer(
       "Examples:\n  clench serve worlds/barrett_mug.wld\n"
-      "  clench serve worlds/barrett_mug.wld --socket /tmp/clench.socket\n\n"
+      "  clench serve worlds/barrett_mug.wld --socket /tmp/clench.socket\n"
+      "  clench serve worlds/barrett_mug.wld --http 7000 --control\n\n"
       "Ctrl-C or SIGTERM ends it. See docs/guide/server.md." +
       trust);
 }

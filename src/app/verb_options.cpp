@@ -268,6 +268,10 @@ void add_serve_options(CLI::App& verb, std::vector<std::string>& words) {
       ->type_name("ADDRESS");
   add("--socket", "a Unix socket instead of a TCP port")->type_name("PATH")->check(named);
   add.flag("--stdio", "JSON-RPC over standard input and output instead");
+  add("--http", "port of a live page that shows the world in a browser; 0: the system chooses one")
+      ->type_name("N")
+      ->check(whole_number(0, 65535));
+  add.flag("--control", "the live page has sliders that move DOFs, and takes all requests");
   add("--token-file", "file that stores the token; default: in the folder of the user's session")
       ->type_name("FILE")
       ->check(named);

@@ -1,4 +1,5 @@
---- A client of a server: takes its lines as they arrive, and sends replies without waiting.
+--- A client of a server: what it sends arrives and waits to be served, replies are sent without waiting. Its field `serve`, a function of server and client,
+--- handles one line, request or frame that has arrived, and returns false if there is none; its field `wrap` makes a message of a reply.
 local class = require "clench.class"
 local loop = clench.loop
 
@@ -15,7 +16,8 @@ local function stop_reading(self)
 end
 
 local function read(self)
-  local _, ending = self.port:fill()
+  local count, ending = self.port:fill()
+  if count > 0 then self.heard = loop.time() end
   if ending then
     self.has_ended = true
     stop_reading(self)
@@ -26,27 +28,25 @@ local function read(self)
 end
 
 local function start_reading(self)
-  if not self.watch and not self.has_ended and not self.is_closed then
+  if not self.watch and not self.has_ended and not self.is_closed and not self.is_finishing then
     self.watch = loop.on(self.port.stream:descriptor(), function() read(self) end)
   end
 end
 
---- Takes the next line.
----@return string? line  nil: none is there
----@return string? reason  "too long"
-function Client:take_line()
-  if self.is_closed then return nil end
-  local line, why = self.port:take_line()
+--- Reads on, where reading stopped because too much waited.
+function Client:read_on()
   if not self.watch and self.port.stream:size() <= max_waiting(self) then start_reading(self) end
-  return line, why
 end
 
---- Sends text. A client that does not read what it is sent is dropped.
-function Client:send(text)
+--- Sends bytes. A client that does not read what it is sent is dropped.
+function Client:send_raw(bytes)
   if self.is_closed then return end
-  local ok, why = self.port:send(text)
+  local ok, why = self.port:send(bytes)
   if not ok then self:close(why == "full" and "it does not read" or why) end
 end
+
+--- Sends a reply.
+function Client:send(text) self:send_raw(self.wrap and self.wrap(text) or text) end
 
 --- Closes the connection at once.
 ---@param reason? string  for the server's log
@@ -59,23 +59,26 @@ function Client:close(reason)
 end
 
 --- Closes the connection once all replies are sent, or after some seconds.
-function Client:finish(reason)
+---@param reason string
+---@param seconds? number  5 by default
+function Client:finish(reason, seconds)
   if self.is_closed or self.is_finishing then return end
   self.is_finishing = true
   stop_reading(self)
   if self.port.queued == 0 then return self:close(reason) end
   loop.spawn(function()
-    self.port:drain(5)
+    self.port:drain(seconds or 5)
     self:close(reason)
   end)
 end
 
 ---@param port port
 ---@param number integer
+---@param serve fun(server: table, client: table): boolean
 ---@param on_input fun(client: table)  called when something has arrived
 ---@param on_close fun(client: table)
-return function(port, number, on_input, on_close)
-  local client = setmetatable({port = port, number = number, on_input = on_input, on_close = on_close}, Client)
+return function(port, number, serve, on_input, on_close)
+  local client = setmetatable({port = port, number = number, serve = serve, began = loop.time(), heard = loop.time(), on_input = on_input, on_close = on_close}, Client)
   start_reading(client)
   return client
 end

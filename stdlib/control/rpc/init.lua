@@ -36,9 +36,9 @@ local function describe(context, args)
 end
 
 methods.add {
-  {name = "hello", text = "Opens the connection for all other methods.",
+  {name = "hello", reads = true, text = "Opens the connection for all other methods.",
    parameters = {{name = "token", type = "string", optional = true, text = "the server's"}, {name = "client", type = "string", optional = true, text = "name of the program"}}, run = hello},
-  {name = "describe", text = "Methods and their parameters.", parameters = {{name = "method", type = "string", optional = true, text = "only this one"}}, run = describe},
+  {name = "describe", reads = true, text = "Methods and their parameters.", parameters = {{name = "method", type = "string", optional = true, text = "only this one"}}, run = describe},
 }
 
 local function notify(client, method, params) messages.notify(client, method, values.of(params)) end

@@ -2,6 +2,7 @@
 local arguments = require "clench.session.arguments"
 local described = require "clench.described"
 local failure = require "clench.control.rpc.failure"
+local scene_key = require "clench.page.scene_key"
 local queries = {}
 
 local function world_of(context) return context.session.world or failure.raise("failed", "no world is open") end
@@ -80,9 +81,20 @@ end
 
 add("world.state", "Time, and poses, DOFs and velocities of objects and robots.", {}, function(context) return queries.state(world_of(context)) end)
 
-add("world.list", "Addresses of bodies and robots.", {}, function(context)
+--- The poses of all bodies, in their order: seven numbers each, x y z [m], then the quaternion w x y z.
+function queries.poses(world)
+  local out = {}
+  for i, body in ipairs(world.bodies) do
+    local pose = body.pose
+    local p, q = pose.position, pose.quat
+    out[i] = {p.x, p.y, p.z, q[1], q[2], q[3], q[4]}
+  end
+  return out
+end
+
+add("world.list", "Addresses of bodies and robots, and a text that is equal for worlds of the same bodies and shapes.", {}, function(context)
   local world = world_of(context)
-  return {robots = world.robots, objects = world.objects, obstacles = world.obstacles, bodies = world.bodies}
+  return {robots = world.robots, objects = world.objects, obstacles = world.obstacles, bodies = world.bodies, scene = scene_key(world)}
 end)
 
 -- two things, of which either may be left out
@@ -92,8 +104,8 @@ local function pair_of(context, args)
   return a, b
 end
 
--- every contact once: of the two bodies that list it, the first in the world
-local function all_contacts(world)
+--- Every contact once: of the two bodies that list it, the first in the world.
+function queries.contacts(world)
   local out, seen = {}, {}
   for _, body in ipairs(world.bodies) do
     for _, contact in ipairs(body.contacts) do
@@ -106,7 +118,7 @@ end
 
 add("world.contacts", "Contacts between two things, of one, or of all.", {a, b}, function(context, args)
   local world = world_of(context)
-  if args.a == nil and args.b == nil then return all_contacts(world) end
+  if args.a == nil and args.b == nil then return queries.contacts(world) end
   return world:contacts(pair_of(context, args))
 end)
 

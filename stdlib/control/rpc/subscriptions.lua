@@ -47,15 +47,23 @@ local function subscribe(context, args)
   return {subscription = number}
 end
 
+local function snapshot_of(world, parts)
+  local value = queries.state(world)
+  if parts.poses then value.poses = queries.poses(world) end
+  if parts.contacts then value.contacts = queries.contacts(world) end
+  return value
+end
+
 -- the text of a snapshot, made once for all clients that ask for the same at the same time
-local function snapshot_text(server)
+local function snapshot_text(server, parts)
   local world = server.session.world
   if not world then return "null" end
-  local kept = server.snapshot
+  local key = (parts.poses and 1 or 0) + (parts.contacts and 2 or 0)
+  local kept = server.snapshots[key]
   local now = clench.loop.time()
   if not kept or now - kept.time > 0.0005 then
-    kept = {time = now, text = clench.json.encode(values.of(queries.state(world)))}
-    server.snapshot = kept
+    kept = {time = now, text = clench.json.encode(values.of(snapshot_of(world, parts)))}
+    server.snapshots[key] = kept
   end
   return kept.text
 end
@@ -63,9 +71,10 @@ end
 local function subscribe_state(context, args)
   local number = new_number(context)
   local client, server, last = context.client, context.server, nil
+  server.snapshots = server.snapshots or {}
   local timer = clench.loop.every(1 / args.rate, function()
     if client.port.queued > 0 then return end  -- a later one takes its place
-    local text = snapshot_text(server)
+    local text = snapshot_text(server, args)
     if text == last then return end
     last = text
     client:send(('{"jsonrpc":"2.0","method":"snapshot","params":{"subscription":%d,"value":%s}}\n'):format(number, text))
@@ -83,11 +92,13 @@ function subscriptions.drop(client)
 end
 
 subscriptions.methods = {
-  {name = "subscribe", text = "Sends each event of a kind as a notification \"event\": in order, and none is lost.",
+  {name = "subscribe", reads = true, text = "Sends each event of a kind as a notification \"event\": in order, and none is lost.",
    parameters = {{name = "event", type = "string", text = "contact, contact_lost, limit (of the running world); changed, diagnostic, result (of the session)"}}, run = subscribe},
-  {name = "subscribe_state", text = "Sends the state of the world as a notification \"snapshot\" whenever it has changed, as of world.state.",
-   parameters = {{name = "rate", type = "number", min = 0.01, max = 1000, default = 30, unit = "Hz", text = "at most so often"}}, run = subscribe_state},
-  {name = "unsubscribe", text = "Ends a subscription.", parameters = {{name = "subscription", type = "integer", text = "its number"}}, run = function(context, args)
+  {name = "subscribe_state", reads = true, text = "Sends the state of the world as a notification \"snapshot\" whenever it has changed, as of world.state.",
+   parameters = {{name = "rate", type = "number", min = 0.01, max = 1000, default = 30, unit = "Hz", text = "at most so often"},
+                 {name = "poses", type = "boolean", default = false, text = "true: with the poses of all bodies, seven numbers each: x y z [m], quaternion w x y z"},
+                 {name = "contacts", type = "boolean", default = false, text = "true: with all contacts, as of world.contacts"}}, run = subscribe_state},
+  {name = "unsubscribe", reads = true, text = "Ends a subscription.", parameters = {{name = "subscription", type = "integer", text = "its number"}}, run = function(context, args)
     local list = context.client.subscriptions or {}
     local stop = list[args.subscription] or failure.raise("params", "subscription: there is no subscription %d", args.subscription)
     stop()
