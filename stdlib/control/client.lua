@@ -1,4 +1,4 @@
---- A client of a server: what it sends arrives and waits to be served, replies are sent without waiting. Its field `serve`, a function of server and client,
+--- A client of a server: what it sends arrives and waits to be served, replies are sent without waiting, several at once if further requests wait. Its field `serve`, a function of server and client,
 --- handles one line, request or frame that has arrived, and returns false if there is none; its field `wrap` makes a message of a reply.
 local class = require "clench.class"
 local loop = clench.loop
@@ -38,11 +38,40 @@ function Client:read_on()
   if not self.watch and self.port.stream:size() <= max_waiting(self) then start_reading(self) end
 end
 
---- Sends bytes. A client that does not read what it is sent is dropped.
+--- Holds further requests back until `release`, as a task answers one.
+function Client:hold()
+  self:flush()
+  self.is_held = true
+end
+
+function Client:release()
+  self.is_held = false
+  if not self.is_closed then self.on_input(self) end
+end
+
+local max_gathered = 1 << 14  -- replies that are sent together [bytes]
+
+-- sends what was gathered; returns as port:send
+local function send_gathered(self)
+  local bytes = table.concat(self.gathered)
+  self.gathered, self.gathered_size = {}, 0
+  return self.port:send(bytes)
+end
+
+--- Sends what was gathered.
+function Client:flush()
+  self.gathers = false
+  if self.gathered_size == 0 or self.is_closed then return end
+  local ok, why = send_gathered(self)
+  if not ok then self:close(why == "full" and "it does not read" or why) end
+end
+
+--- Sends bytes; while `gathers` is set, with those that follow. A client that does not read what it is sent is dropped.
 function Client:send_raw(bytes)
   if self.is_closed then return end
-  local ok, why = self.port:send(bytes)
-  if not ok then self:close(why == "full" and "it does not read" or why) end
+  self.gathered[#self.gathered + 1] = bytes
+  self.gathered_size = self.gathered_size + #bytes
+  if not self.gathers or self.gathered_size > max_gathered then self:flush() end
 end
 
 --- Sends a reply.
@@ -54,6 +83,7 @@ function Client:close(reason)
   if self.is_closed then return end
   self.is_closed, self.reason = true, reason or "closed"
   stop_reading(self)
+  if self.gathered_size > 0 then send_gathered(self) end
   self.port:close()
   self.on_close(self)
 end
@@ -62,6 +92,7 @@ end
 ---@param reason string
 ---@param seconds? number  5 by default
 function Client:finish(reason, seconds)
+  self:flush()
   if self.is_closed or self.is_finishing then return end
   self.is_finishing = true
   stop_reading(self)
@@ -78,7 +109,8 @@ end
 ---@param on_input fun(client: table)  called when something has arrived
 ---@param on_close fun(client: table)
 return function(port, number, serve, on_input, on_close)
-  local client = setmetatable({port = port, number = number, serve = serve, began = loop.time(), heard = loop.time(), on_input = on_input, on_close = on_close}, Client)
+  local client = setmetatable({port = port, number = number, serve = serve, began = loop.time(), heard = loop.time(),
+                               gathered = {}, gathered_size = 0, on_input = on_input, on_close = on_close}, Client)
   start_reading(client)
   return client
 end

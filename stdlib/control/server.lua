@@ -10,6 +10,7 @@ local mcp = require "clench.control.mcp"
 local new_client = require "clench.control.client"
 local new_options = require "clench.options"
 local new_port = require "clench.port.port"
+local new_turn = require "clench.control.turn"
 local open_stdio = require "clench.open_stdio"
 local rpc = require "clench.control.rpc"
 local text = require "clench.control.text"
@@ -71,10 +72,12 @@ local function serve_line(self, client)
   return line ~= nil
 end
 
--- serves one line, request or frame of a client; false: there is none
+-- Serves one line, request or frame of a client; false: there is none. Replies are sent once all that has arrived is answered.
 local function serve_one(self, client)
-  if client.is_closed or client.is_finishing then return false end
+  if client.is_closed or client.is_finishing or client.is_held then return false end
+  client.gathers = true
   local some = client.serve(self, client)
+  if not some or client.port.stream:size() == 0 then client:flush() end
   client:read_on()
   if not some and client.has_ended then client:finish "closed by the client" end
   return some
@@ -90,18 +93,23 @@ local function serve_safely(self, client)
   return true
 end
 
-local max_turn = 0.002  -- for which clients are served before others run, jobs and timers for instance [s]
+-- serves one line of each client; false: there are none
+local function serve_each(self, clients)
+  local some = false
+  for _, client in ipairs(clients) do some = serve_safely(self, client) or some end
+  return some
+end
 
 -- Serves clients in the order in which they connected, a line of each in turn, until no lines are left.
 local function serve(self)
-  local began, some = loop.time(), nil
+  local count, clients
+  local pause = new_turn(function()
+    for _, client in ipairs(clients) do client:flush() end
+  end)
   repeat
-    some = false
-    for _, client in ipairs {table.unpack(self.clients)} do some = serve_safely(self, client) or some end
-    if some and loop.time() - began > max_turn then
-      coroutine.yield()
-      began = loop.time()
-    end
+    if count ~= self.count then count, clients = self.count, {table.unpack(self.clients)} end
+    local some = serve_each(self, clients)
+    if some and pause() then count = nil end
   until not some
   self.is_serving = false
 end

@@ -1,8 +1,9 @@
--- A server under load, from another process: requests per second beside a bare echo of lines in the same process, the cost of states at 500 Hz, and how long a
+-- A server under load, from other processes: requests per second beside a bare echo of lines in the same process, the cost of states at 500 Hz, and how long a
 -- client waits among 64.
 --   clench -q run tests/bench/serve.lua [--seconds S] [--check] [--csv FILE]    S: duration of a measurement
 local clench = require "clench"
-local json, loop = clench.json, clench.loop
+local requests = dofile "tests/bench/serve_requests.lua"
+local loop = clench.loop
 
 local seconds, check, csv = 0.5, false, nil
 do
@@ -16,66 +17,51 @@ do
   end
 end
 
-local function output(command)
+-- --- other processes ---
+
+local function first_line(command)
   local pipe <close> = io.popen(command)
   return pipe:read "l"
 end
 
-local program = output "readlink /proc/$PPID/exe"
+local program = first_line "readlink /proc/$PPID/exe"
 
--- --- the measured process ---
-
-local Served = {}
-Served.__index = Served
-Served.__close = function(self)
-  os.execute("kill " .. self.process)
+local Process = {}
+Process.__index = Process
+Process.__close = function(self)
+  os.execute("kill " .. self.number)
   self.pipe:close()
 end
 
-local function start(options)
-  local self = setmetatable({pipe = io.popen(("exec '%s' -q run tests/bench/served.lua %s"):format(program, options or ""))}, Served)
-  self.process, self.port, self.echo, self.token = self.pipe:read("n", "n", "n", "l")
-  self.token = self.token:match "%w+"
-  return self
+-- a script that runs until it is closed, and the first line that it prints
+local function start(script, ...)
+  local pipe = io.popen(("echo $$; exec '%s' -q run tests/bench/%s %s 2>/dev/null"):format(program, script, table.concat({...}, " ")))
+  local number, line = pipe:read("l", "l")
+  return setmetatable({pipe = pipe, number = number}, Process), line
 end
 
--- processor time that it has used [s]
-function Served:time()
-  local file <close> = io.open(("/proc/%d/stat"):format(self.process))
-  local fields = file:read "a":match "%) (.*)"
-  local user, system = fields:match("^" .. ("%S+ "):rep(11) .. "(%d+) (%d+)")
-  return (tonumber(user) + tonumber(system)) / 100
+-- processor time that the main thread of a process has used [s]
+function Process:time()
+  local file <close> = io.open(("/proc/%s/schedstat"):format(self.number))
+  return file:read "n" / 1e9
 end
 
-local function request(method, params) return json.encode {jsonrpc = "2.0", id = 1, method = method, params = params} .. "\n" end
-
--- a client; of JSON-RPC after hello
-function Served:connect(options)
-  local port = clench.port.connect("127.0.0.1", self.port)
-  if options.rpc then
-    port:write(request("hello", {token = self.token}))
-    assert(port:read_line(10):find "result")
-  end
-  return port
+local function start_server(hertz)
+  local process, line = start("served.lua", hertz)
+  local port, echo, token = line:match "(%d+)%s+(%d+)%s+(%w+)"
+  process.port, process.echo, process.token = tonumber(port), tonumber(echo), token
+  return process
 end
 
--- --- requests per second ---
+-- --- the table ---
 
-local function lines_in(bytes) return select(2, bytes:gsub("\n", "")) end
+local rows, missed = {}, {}
 
--- sends a request again and again, with `depth` of them under way, for some time: rate [1/s], processor time of a request [s]
-local function rate_of(served, port, line, reply_lines, depth)
-  local began, used = loop.time(), served:time()
-  local last, sent, received = began + seconds, 0, 0
-  repeat
-    local open = sent - received // reply_lines
-    if open < depth and loop.time() < last then
-      port:write(line:rep(depth - open))
-      sent = sent + depth - open
-    end
-    received = received + lines_in(port:read_some(10))
-  until received == sent * reply_lines and loop.time() >= last
-  return sent / (loop.time() - began), (served:time() - used) / sent
+local function add(name, value, unit, aim, is_most)
+  local is_missed = aim and (is_most and value >= aim or not is_most and value < aim)
+  rows[#rows + 1] = {question = name, value = value, unit = unit, aim = aim or ""}
+  if is_missed then missed[#missed + 1] = name end
+  print(("%-64s %8.4g %-4s%s"):format(name, value, unit, aim and (" aim: %s %.3g%s"):format(is_most and "below" or "at least", aim, is_missed and "  MISSED" or "") or ""))
 end
 
 local function median(list)
@@ -83,38 +69,41 @@ local function median(list)
   return list[(#list + 1) // 2]
 end
 
-local rows, failures = {}, {}
+-- --- requests per second ---
 
-local function add(name, value, unit, aim, is_most)
-  local is_missed = aim and (is_most and value >= aim or not is_most and value < aim)
-  rows[#rows + 1] = {question = name, value = value, unit = unit, aim = aim or ""}
-  if is_missed then failures[#failures + 1] = name end
-  print(("%-62s %10.4g %-6s %s"):format(name, value, unit, aim and ("aim: %s %g%s"):format(is_most and "below" or "at least", aim, is_missed and "  MISSED" or "") or ""))
+local function lines_in(bytes) return select(2, bytes:gsub("\n", "")) end
+
+-- sends a request again and again, with `depth` of them under way, for some time: rate [1/s], processor time of a request [s]
+local function rate_of(server, port, case, reply_lines, depth)
+  local began, used = loop.time(), server:time()
+  local last, sent, received = began + seconds, 0, 0
+  repeat
+    local open = sent - received // reply_lines
+    if open <= depth // 2 and loop.time() < last then
+      port:write(case.line:rep(depth - open))
+      sent = sent + depth - open
+    end
+    received = received + lines_in(port:read_some(10))
+  until received == sent * reply_lines and loop.time() >= last
+  return sent / (loop.time() - began), (server:time() - used) / sent
 end
 
-local small = {
-  {name = "getRobotName", line = "getRobotName 1 0\n", lines = 1},
-  {name = "getDOFVals", line = "getDOFVals 1 0\n", lines = 5},
-  {name = "get dofs", rpc = true, line = request("get", {of = "barrett", fields = {"dofs"}}), lines = 1},
-  {name = "world.hash", rpc = true, line = request "world.hash", lines = 1},
-}
-
-local function compare_rates(served)
-  for _, depth in ipairs {1, 100} do
-    for _, case in ipairs(small) do
-      local echo <close> = clench.port.connect("127.0.0.1", served.echo)
-      local port <close> = served:connect(case)
-      local ratios, rates, echoes = {}, {}, {}
-      for i = 1, 5 do
-        echoes[i] = rate_of(served, echo, case.line, 1, depth)
-        rates[i] = rate_of(served, port, case.line, case.lines, depth)
-        ratios[i] = rates[i] / echoes[i]
-      end
-      local name = ("%s, %s"):format(case.name, depth == 1 and "one at a time" or depth .. " at a time")
-      add(name, median(rates), "1/s")
-      add(name .. ", ratio to echo", median(ratios), "", 1 / 3)
-    end
+-- a request beside the same line that is sent back, in turn
+local function compare(server, case, depth)
+  local echo <close> = requests.connect(server.echo)
+  local port <close> = requests.connect(server.port, case.rpc and server.token)
+  local rates, ratios, costs, echo_costs = {}, {}, {}, {}
+  for i = 1, 5 do
+    local echo_rate
+    echo_rate, echo_costs[i] = rate_of(server, echo, case, 1, depth)
+    rates[i], costs[i] = rate_of(server, port, case, case.lines, depth)
+    ratios[i] = rates[i] / echo_rate
   end
+  local name = ("%s, %s"):format(case.name, depth == 1 and "one at a time" or depth .. " at a time")
+  add(name, median(rates), "1/s")
+  add(name .. ", processor time", 1e6 * median(costs), "us")
+  add(name .. ", rate / rate of echo", median(ratios), "", 1 / 3)
+  add(name .. ", processor time of echo / processor time", median(echo_costs) / median(costs), "")
 end
 
 -- --- states at 500 Hz ---
@@ -122,73 +111,77 @@ end
 local hertz, subscribers = 500, 8
 
 local function measure_states()
-  local served <close> = start(hertz)
-  local before = served:time()
+  local server <close> = start_server(hertz)
+  local before = server:time()
   loop.sleep(4 * seconds)
-  local alone = served:time() - before
-  local bytes, ports = 0, {}
+  local alone, count, ports = server:time() - before, 0, {}
   for i = 1, subscribers do
-    local port = served:connect {rpc = true}
-    port:write(request("subscribe_state", {rate = hertz}))
+    local port = requests.connect(server.port, server.token)
+    port:write(requests.request("subscribe_state", {rate = hertz}))
     port:read_line(10)
     ports[i] = port
     loop.spawn(function()
       while true do
         local some = port:read_some()
         if not some then return end
-        bytes = bytes + lines_in(some)
+        count = count + lines_in(some)
       end
     end)
   end
-  bytes, before = 0, served:time()
+  count, before = 0, server:time()
   local began = loop.time()
   loop.sleep(4 * seconds)
-  local took, used = loop.time() - began, served:time() - before
-  local count = bytes
+  local took, used, sent = loop.time() - began, server:time() - before, count
   for _, port in ipairs(ports) do port:close() end
-  add(("states per second and client, %d clients at %d Hz"):format(subscribers, hertz), count / took / subscribers, "1/s", 0.9 * hertz)
-  add("processor time of these", 100 * (used - alone) / took, "%", 10, true)
+  local rate = sent / took / subscribers
+  add(("states per client, %d clients at %d Hz"):format(subscribers, hertz), rate, "1/s", 0.9 * hertz)
+  -- fewer are sent while other programs use the cores: the time of one, for all that were asked for
+  add("their processor time at this rate, of a core", 100 * (used - alone * took / (4 * seconds)) / sent * hertz * subscribers, "%", 10, true)
 end
 
 -- --- waits among 64 clients ---
 
 local clients = 64
 
--- the longest wait for an answer, while all others send requests, too: half of them one at a time, the others without waiting
-local function longest_wait(served)
-  local last, worst, count, tasks = loop.time() + 4 * seconds, 0, 0, {}
-  for i = 1, clients do
-    local case = small[i % #small + 1]
-    local port = served:connect(case)
-    tasks[i] = loop.spawn(function()
-      while loop.time() < last do
-        local asked, repeated = loop.time(), i % 2 == 0 and 20 or 1
-        port:write(case.line:rep(repeated))
-        for _ = 1, repeated * case.lines do port:read_line(10) end
-        if repeated == 1 then worst, count = math.max(worst, loop.time() - asked), count + 1 end
-      end
-      port:close()
-    end)
+-- the longest wait for an answer while all others send requests, and the longest time for which the server was busy meanwhile
+local function longest_wait(server)
+  local load <close>, ready = start("serve_load.lua", server.port, server.token, clients - 1)
+  assert(ready == "ready")
+  local worst, busiest, last, ports = 0, 0, loop.time() + 4 * seconds, {}
+  for i, case in ipairs(requests.small) do ports[i] = requests.connect(server.port, case.rpc and server.token) end
+  while loop.time() < last do
+    for i, case in ipairs(requests.small) do
+      local asked, used = loop.time(), server:time()
+      ports[i]:write(case.line)
+      for _ = 1, case.lines do ports[i]:read_line(10) end
+      worst, busiest = math.max(worst, loop.time() - asked), math.max(busiest, server:time() - used)
+    end
   end
-  repeat loop.sleep(0.02) until not (function() for _, task in ipairs(tasks) do if task.status ~= "done" then return true end end end)()
-  return worst, count
+  for _, port in ipairs(ports) do port:close() end
+  return worst, busiest
 end
 
-local function measure_waits(served)
-  local waits = {}
-  for i = 1, 3 do waits[i] = 1e3 * longest_wait(served) end
-  add(("longest wait of a client among %d, median of three runs"):format(clients), median(waits), "ms", 50, true)
+local function measure_waits(server)
+  local waits, times = {}, {}
+  for i = 1, 3 do waits[i], times[i] = longest_wait(server) end
+  add(("longest wait of a client among %d, median of three runs"):format(clients), 1e3 * median(waits), "ms", 50, true)
+  add("longest processor time of the server during a wait", 1e3 * median(times), "ms")
 end
 
 do
-  local served <close> = start()
-  compare_rates(served)
-  measure_waits(served)
+  local server <close> = start_server()
+  for _, depth in ipairs {1, 100} do
+    for _, case in ipairs(requests.small) do compare(server, case, depth) end
+  end
+end
+do
+  local server <close> = start_server()
+  measure_waits(server)
 end
 measure_states()
 
 if csv then clench.csv.write(csv, rows, {columns = {"question", "value", "unit", "aim"}}) end
-if check and #failures > 0 then
-  print("FAILED: " .. table.concat(failures, "; "))
+if check and #missed > 0 then
+  print("FAILED: " .. table.concat(missed, "; "))
   os.exit(1)
 end

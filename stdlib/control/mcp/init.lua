@@ -139,10 +139,11 @@ function mcp.answer(server, client, line)
   local function reply(text)
     if text then client:send(text .. "\n") end
   end
-  messages.serve(line, reply, function(method, params, id) return call(context, method, params, id) end, function(method, params)
+  local function is_long(method, params)
     local name = method == "tools/call" and type(params.name) == "string" and tools.method_of(server, params.name)
     return name and methods.is_long(server.session, name) or false
-  end)
+  end
+  messages.serve(line, {reply = reply, is_long = is_long, call = function(method, params, id) return call(context, method, params, id) end})
 end
 
 mcp.refuse_long = messages.refuse_long

@@ -36,8 +36,15 @@ local function field_of(thing, field)
   return value
 end
 
+local max_fields = 1000  -- of one request
+
+local function check_count(count)
+  if count > max_fields then failure.raise("refused", "at most %d fields are read in one request, got %d", max_fields, count) end
+end
+
 local function check_names(fields)
   check_list("fields", fields)
+  check_count(#fields)
   for i, field in ipairs(fields) do
     if type(field) ~= "string" then failure.raise("params", "fields[%d]: expected a string", i) end
   end
@@ -54,11 +61,13 @@ add("get", "Fields of the world, of a body or of a robot, by their names in scri
     {{name = "of", type = "string", optional = true, text = "address; the world by default"}, {name = "fields", type = "table", text = "names"}},
     function(context, args) return read_fields(context, args.of, args.fields) end)
 
-add("read", "Fields of several things in one call.", {{name = "items", type = "table", text = "a list of {of, fields}"}}, function(context, args)
+add("read", "Fields of several things in one call, at most 1000.", {{name = "items", type = "table", text = "a list of {of, fields}"}}, function(context, args)
   check_list("items", args.items)
-  local out = {}
+  local out, count = {}, 0
   for i, item in ipairs(args.items) do
     if type(item) ~= "table" or type(item.fields) ~= "table" then failure.raise("params", "items[%d]: expected {of, fields}", i) end
+    count = count + #item.fields
+    check_count(math.max(count, i))
     out[i] = read_fields(context, item.of, item.fields)
   end
   return out

@@ -54,32 +54,50 @@ local function snapshot_of(world, parts)
   return value
 end
 
--- the text of a snapshot, made once for all clients that ask for the same at the same time
-local function snapshot_text(server, parts)
-  local world = server.session.world
-  if not world then return "null" end
-  local key = (parts.poses and 1 or 0) + (parts.contacts and 2 or 0)
-  local kept = server.snapshots[key]
-  local now = clench.loop.time()
-  if not kept or now - kept.time > 0.0005 then
-    kept = {time = now, text = clench.json.encode(values.of(snapshot_of(world, parts)))}
-    server.snapshots[key] = kept
+local function snapshot_text(world, parts) return world and clench.json.encode(values.of(snapshot_of(world, parts))) or "null" end
+
+-- sends a snapshot to all subscribers of a group, where it differs from the last one
+local function send_snapshots(server, group)
+  local text = snapshot_text(server.session.world, group.parts)
+  for _, subscriber in ipairs {table.unpack(group.subscribers)} do
+    local client = subscriber.client
+    -- a client that still receives one is sent a later one
+    if client.port.queued == 0 and text ~= subscriber.last then
+      subscriber.last = text
+      client:send(('{"jsonrpc":"2.0","method":"snapshot","params":{"subscription":%d,"value":%s}}\n'):format(subscriber.number, text))
+    end
   end
-  return kept.text
+end
+
+-- subscribers to the same content at the same rate share a timer and a text
+local function group_of(server, parts)
+  local key = ("%.17g %s %s"):format(parts.rate, parts.poses, parts.contacts)
+  local groups = server.snapshot_groups or {}
+  server.snapshot_groups = groups
+  if not groups[key] then
+    local group = {parts = parts, subscribers = {}}
+    group.timer = clench.loop.every(1 / parts.rate, function() send_snapshots(server, group) end)
+    function group.finish()
+      group.timer:remove()
+      groups[key] = nil
+    end
+    groups[key] = group
+  end
+  return groups[key]
+end
+
+local function remove(group, subscriber)
+  for i, one in ipairs(group.subscribers) do
+    if one == subscriber then table.remove(group.subscribers, i) break end
+  end
+  if #group.subscribers == 0 then group.finish() end
 end
 
 local function subscribe_state(context, args)
-  local number = new_number(context)
-  local client, server, last = context.client, context.server, nil
-  server.snapshots = server.snapshots or {}
-  local timer = clench.loop.every(1 / args.rate, function()
-    if client.port.queued > 0 then return end  -- a later one takes its place
-    local text = snapshot_text(server, args)
-    if text == last then return end
-    last = text
-    client:send(('{"jsonrpc":"2.0","method":"snapshot","params":{"subscription":%d,"value":%s}}\n'):format(number, text))
-  end)
-  client.subscriptions[number] = function() timer:remove() end
+  local number, client = new_number(context), context.client
+  local group, subscriber = group_of(context.server, args), {client = client, number = number}
+  table.insert(group.subscribers, subscriber)
+  client.subscriptions[number] = function() remove(group, subscriber) end
   return {subscription = number}
 end
 
