@@ -128,8 +128,18 @@ local function remove(self, client)
   if self.on_close then self.on_close(client) end
 end
 
+-- a client that has not said in time which protocol it speaks, or hello
+local function find_silent(self)
+  for _, client in ipairs(self.clients) do
+    local is_known = client.is_authorized or client.protocol == text_protocol or client.is_finishing
+    if not is_known and loop.time() - client.began > self.max_silence then return client end
+  end
+end
+
 -- serve: of the client's protocol
 local function add(self, port, serve)
+  local silent = #self.clients >= self.max_clients and find_silent(self)
+  if silent then silent:close "another client took its place" end
   if #self.clients >= self.max_clients then
     local words = ("Error: the server has %d clients and takes no more\n"):format(self.max_clients)
     port:send(serve == serve_line and words or web.busy(words))
@@ -238,7 +248,7 @@ local function read_options(options)
   local port, host, path = o:get "port", o:raw "host", o:raw "path"
   if host ~= nil then check.string(subject, "host", host) end
   local is_local = path ~= nil or is_loopback(host or "localhost")
-  local server = {session = session, token = read_token(o, is_local), serves_text = is_local, clients = {}, count = 0, jobs = {}, job_count = 0, folder = read_folder(o),
+  local server = {session = session, token = read_token(o, is_local), serves_text = is_local, clients = {}, count = 0, max_silence = 10, jobs = {}, job_count = 0, folder = read_folder(o),
                   max_clients = o:get "max_clients", max_line = o:get "max_line",
                   max_queue = o:get "max_queue", on_connect = o:get "on_connect", on_close = o:get "on_close"}
   local stdio = o:get "stdio"
