@@ -32,6 +32,9 @@ if(NOT CLENCH_VIEWER)
   set_source_files_properties(app/view_verb_test.cpp PROPERTIES HEADER_FILE_ONLY ON)
 endif()
 clench_test_program(test_app ${app_sources})
+# a second implementation of Modbus
+pkg_check_modules(MODBUS REQUIRED IMPORTED_TARGET libmodbus)
+target_link_libraries(test_app PRIVATE PkgConfig::MODBUS)
 # epsilon of grasps by a program that shares no code with the engine
 pkg_check_modules(QHULL_R REQUIRED IMPORTED_TARGET qhull_r)
 add_executable(recompute_epsilon app/recompute_epsilon.cpp bench/peer_qhull.cpp)

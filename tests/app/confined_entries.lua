@@ -61,6 +61,14 @@ local writers = {
   ["clench.files.check_writable"] = clench.files.check_writable,
   ["clench.export_html"] = function(path) clench.export_html(hand.world, path .. ".html") end,
   ["clench.devices.save_calibration"] = function(path) clench.devices.save_calibration(path, {slopes = {{1}}, intercepts = {0}}) end,
+  ["clench.port.listen"] = function(path) clench.port.listen {path = path}:close() end,
+  ["clench serve --token-file"] = function(path) require "clench.save_secret"(path, "token") end,
+  ["port:record"] = function(path)
+    local a, b = clench.port.pair()
+    a:record(path)
+    a:close()
+    b:close()
+  end,
   ["clench.files.save_arrays"] = function(path) clench.files.save_arrays(path, {a = {1}}) end,
   ["clench.files.save_object_contacts"] = function(path) clench.files.save_object_contacts(path, {}) end,
   ["clench.files.save_pregrasps"] = function(path) clench.files.save_pregrasps(path, {}) end,
@@ -168,5 +176,15 @@ for name, write in pairs(writers) do
     local done, problem = pcall(write, outside .. "/written/" .. name:gsub("%W", "_"))
     assert(done, ("%s: %s"):format(name, tostring(problem)))
   end
+end
+-- --- ports: any device or socket that a script names, but none through a link inside the folder ---
+
+local line <close> = clench.port.pty()
+clench.port.serial {path = line.path}:close()
+local listener <close> = clench.port.listen {path = outside .. "/written/socket"}
+clench.port.connect(outside .. "/written/socket"):close()
+for _, open in ipairs {function(path) clench.port.serial {path = path} end, clench.port.connect} do
+  local opened, reason = pcall(open, inside .. "/link/written/socket")
+  assert(not opened and tostring(reason):find("a link leads out of", 1, true), tostring(reason))
 end
 print "all confined"

@@ -60,6 +60,7 @@ end
 --- The arguments of a command, with paths that lie below the server's folder.
 function files.confine(server, command, args)
   local name = command.name
+  if name:find "^sensors%.connect_" then failure.raise("refused", "%s: devices are connected by the program of the server only", name) end
   if not names_files(command) then return args end
   if not server.folder then failure.raise("refused", "%s: this server reads and writes no files (it was started without a folder)", name) end
   if not known[name] then failure.raise("refused", "%s: commands of scripts that name files are not for clients", name) end
