@@ -48,6 +48,17 @@ function Client:send(text)
   if not ok then self:close(why == "full" and "it does not read" or why) end
 end
 
+--- Runs a function in a task of its own; lines of this client that come after it wait until it has ended.
+function Client:serve_apart(f)
+  self.is_busy = true
+  loop.spawn(function()
+    local _ <close> = setmetatable({}, {__close = function() self.is_busy = false end})
+    f()
+    self.is_busy = false
+    self.on_input(self)
+  end)
+end
+
 --- Closes the connection at once.
 ---@param reason? string  for the server's log
 function Client:close(reason)

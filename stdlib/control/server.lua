@@ -62,7 +62,7 @@ end
 
 -- one line of one client; false: there is none
 local function serve_one(self, client)
-  if client.is_closed or client.is_finishing then return false end
+  if client.is_closed or client.is_finishing or client.is_busy then return false end
   local line, why = client:take_line()
   if line then
     protocol_of(client, line).answer(self, client, line)

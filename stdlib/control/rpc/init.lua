@@ -55,7 +55,7 @@ function rpc.answer(server, client, line)
     if not client.is_authorized and name ~= "hello" then failure.raise("unauthorized", "%s: expected hello with the server's token first", shown(name)) end
     return values.of(methods.call(context, name, params, client.is_authorized))
   end
-  messages.serve(line, reply, call, function(name) return client.is_authorized and methods.is_long(session, name) end)
+  messages.serve(client, line, reply, call, function(name) return client.is_authorized and methods.is_long(session, name) end)
 end
 
 rpc.refuse_long, rpc.prepare, rpc.drop = messages.refuse_long, commands.prepare, subscriptions.drop

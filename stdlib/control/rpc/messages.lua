@@ -5,6 +5,7 @@ local null_ids = require "clench.control.rpc.null_ids"
 local messages = {}
 
 local max_batch = 1000  -- requests
+local max_turn = 0.002  -- time for requests of a batch before others are served [s]
 local null = clench.json.null
 
 --- Result of a request that is not answered, as its client has cancelled it.
@@ -60,8 +61,14 @@ local function respond_to_all(message, call, line)
     local ok, problem = pcall(failure.raise, "request", "expected 1 to %d requests in a batch, got %d", max_batch, #message)
     return not ok and messages.encode {jsonrpc = "2.0", id = null, error = failure.of(problem)}
   end
-  local responses = {}
-  for i, one in ipairs(message) do responses[#responses + 1] = respond(one, call, has_null_id[i]) end
+  local responses, began = {}, clench.loop.time()
+  for i, one in ipairs(message) do
+    responses[#responses + 1] = respond(one, call, has_null_id[i])
+    if i < #message and clench.loop.time() - began > max_turn then
+      coroutine.yield()
+      began = clench.loop.time()
+    end
+  end
   if #responses > 0 then return "[" .. table.concat(responses, ",") .. "]" end
 end
 
@@ -79,20 +86,28 @@ local function decoded(line)
   return clench.json.decode(line)
 end
 
---- Answers a line. Lines with long requests are answered in a task of their own, while others are served.
+--- Answers a line. Batches and lines with long requests are answered in a task of their own, while others are served. The next line of a client waits for a
+--- batch without long requests, as for a single request.
+---@param client table
 ---@param line string
 ---@param reply fun(text: string?)  sends the answer, if there is one
 ---@param call fun(method: string, params: table, id: any): any  result of a request, as plain data
 ---@param is_long fun(method: string, params: table): boolean
-function messages.serve(line, reply, call, is_long)
+function messages.serve(client, line, reply, call, is_long)
   if not line:find "%S" then return end
   local ok, message = pcall(decoded, line)
   if not ok then
     if is_stopped(message) then error(message, 0) end
     return reply(messages.encode {jsonrpc = "2.0", id = null, error = {code = failure.parse, message = failure.of(message).message}})
   end
-  if not has_long(message, is_long) then return reply(respond_to_all(message, call, line)) end
-  clench.loop.spawn(function() reply(respond_to_all(message, call, line)) end)
+  local function answer() reply(respond_to_all(message, call, line)) end
+  if has_long(message, is_long) then
+    clench.loop.spawn(answer)
+  elseif is_list(message) and #message > 1 then
+    client:serve_apart(answer)
+  else
+    return answer()
+  end
   coroutine.yield()  -- it begins before the next request of anyone is served
 end
 
