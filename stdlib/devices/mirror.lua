@@ -9,8 +9,32 @@ local Mirror = class "mirror"
 
 function Mirror:__tostring() return ("mirror of %s at %s"):format(self.hand.name, tostring(self.device)) end
 
-local function read_device(device)
-  return device.read_positions and device:read_positions() or device:read()
+-- where the real hand is; what a driver returns is not trusted
+local function read_device(self)
+  local device = self.device
+  local method = device.read_positions and "read_positions" or "read"
+  local values = device[method](device)
+  if type(values) ~= "table" or #values ~= #self.dofs then
+    raise(("%s: device: expected %d numbers from %s, got %s"):format(subject, #self.dofs, method, described(values)))
+  end
+  for i, value in ipairs(values) do
+    if type(value) ~= "number" or value - value ~= 0 then
+      raise(("%s: device: value %d of %s: expected a finite number, got %s"):format(subject, i, method, described(value)))
+    end
+  end
+  return values
+end
+
+-- Where the real hand is when the first values are sent. From far beyond the limits no value fulfills both the limits and the largest speed.
+local function start_of(self, reach)
+  local values = read_device(self)
+  for i, value in ipairs(values) do
+    local range = self.limits[i]
+    if value < range[1] - reach or value > range[2] + reach then
+      raise(("%s: value %d of the device, %.6g, is beyond its limits %.6g to %.6g: bring it back first"):format(subject, i, value, range[1], range[2]), "stale")
+    end
+  end
+  return values
 end
 
 local function write_device(device, values)
@@ -34,7 +58,7 @@ end
 --- Moves the simulated hand to where the real one is, until contact stops it.
 ---@return table result  as of hand:move_dofs
 function Mirror:pull()
-  local dofs, limits = to_hand(self, read_device(self.device)), self.hand.dof_limits
+  local dofs, limits = to_hand(self, read_device(self)), self.hand.dof_limits
   for d, value in ipairs(dofs) do dofs[d] = math.max(limits[d][1], math.min(limits[d][2], value)) end
   return self.hand:move_dofs(dofs)
 end
@@ -45,13 +69,14 @@ end
 function Mirror:push()
   local now = loop.time()
   local seconds = self.pushed and math.min(now - self.pushed, self.interval) or self.interval
-  local from = self.sent or read_device(self.device)
-  local goal, reach, done = to_device(self, self.hand.dofs), self.max_speed * seconds, true
+  local reach = self.max_speed * seconds
+  local from = self.sent or start_of(self, reach)
+  local goal, done = to_device(self, self.hand.dofs), true
   local out = {}
   for i, value in ipairs(goal) do
     local range = self.limits[i]
     value = math.max(range[1], math.min(range[2], value))
-    out[i] = math.max(from[i] - reach, math.min(from[i] + reach, value))
+    out[i] = math.max(range[1], math.min(range[2], math.max(from[i] - reach, math.min(from[i] + reach, value))))
     done = done and math.abs(out[i] - value) < 1e-9
   end
   write_device(self.device, out)

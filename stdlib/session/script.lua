@@ -7,6 +7,7 @@ local function number(x)
   if x ~= x then return "0 / 0" end
   if x == math.huge or x == -math.huge then return x > 0 and "math.huge" or "-math.huge" end
   if math.type(x) == "integer" then return ("%d"):format(x) end
+  if x == 0 then return 1 / x < 0 and "-0.0" or "0" end
   -- the shortest text that is read back bit-exactly
   for digits = 15, 16 do
     local text = ("%." .. digits .. "g"):format(x)

@@ -145,6 +145,19 @@ test("a batch has a response for each request, and none for notifications", func
   t.equal(#batch(many), 1000)
 end)
 
+test("while a batch is served, others are answered, and its client waits", function(t)
+  local server <close>, world = serve()
+  local client, other = connect(server), connect(server)
+  local steps = {}
+  for i = 1, 1000 do steps[i] = {jsonrpc = "2.0", id = i, method = "step", params = {dt = 0.01, state = false}} end
+  client.port:write(json.encode(steps) .. '\n{"jsonrpc":"2.0","id":"next","method":"get","params":{"fields":["time"]}}\n')
+  repeat until other.get("get", {fields = {"time"}}).time > 0
+  t.ok(other.get("get", {fields = {"time"}}).time < 5)
+  t.equal(#client.receive(), 1000)
+  t.close(client.receive().result.time, 10, 1e-6)
+  t.close(world.time, 10, 1e-6)
+end)
+
 test("commands act on the session, by addresses, and can be undone", function(t)
   local server <close>, world, hand = serve()
   local client = connect(server)
@@ -232,6 +245,9 @@ test("a control loop steps and reads in one round trip, bit-identically to a scr
   t.equal(world:hash(), copy:hash())
   client.get("step", {targets = {barrett = {dof2 = 0.9}}, state = false})
   t.equal(code(client.call("step", {dt = 10})), -32602)
+  client.get("world.settings", {time_step = 1e-7})
+  t.ok(client.call("step", {dt = 0.1}).error.message:find "dt: 0.1 s are more than 1000 time steps of 1e%-07 s")
+  client.get "session.undo"
   t.equal(code(client.call("step", {efforts = {barrett = 5}})), -32602)
   t.equal(code(client.call("step", {efforts = {nobody = {1}}})), -32000)
 end)

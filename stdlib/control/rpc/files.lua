@@ -1,5 +1,6 @@
 --- Files that JSON-RPC clients may name: none, unless the server has a folder; then those below it, wherever links lead.
 local canonical = require "clench.canonical"
+local described = require "clench.described"
 local failure = require "clench.control.rpc.failure"
 local with_ending = require "clench.session.with_ending"
 local files = {}
@@ -37,7 +38,7 @@ local function path_below(folder, name, path)
   for part in path:gmatch "[^/]+" do is_outside = is_outside or part == ".." end
   local whole = folder .. "/" .. path
   is_outside = is_outside or leads_out(folder, whole) or leads_out(folder, whole:gsub("%.[^./]*$", "") .. "_files/x")
-  if is_outside then failure.raise("refused", "%s: '%s' does not lie below the server's folder", name, path) end
+  if is_outside then failure.raise("refused", "%s: %s does not lie below the server's folder", name, described(path)) end
   return whole
 end
 
@@ -80,7 +81,7 @@ local planners = {primitive = true, sample = true, antipodal = true, random = tr
 
 --- Checks that a planner is one whose options, as they are given, name no files.
 function files.check_planner(planner, options)
-  if not planners[planner] then failure.raise("params", "planner: expected primitive, sample, antipodal, random, anneal, loop or guided, got %s", planner) end
+  if not planners[planner] then failure.raise("params", "planner: expected primitive, sample, antipodal, random, anneal, loop or guided, got %s", described(planner)) end
   if options.root ~= nil or type(options.primitives) == "string" then failure.raise("refused", "options of a planner name no files") end
 end
 

@@ -1,4 +1,5 @@
 --- What JSON-RPC clients subscribe to: events, ordered and none lost, and snapshots, of which only the latest counts.
+local described = require "clench.described"
 local failure = require "clench.control.rpc.failure"
 local queries = require "clench.control.rpc.queries"
 local values = require "clench.control.rpc.values"
@@ -37,7 +38,7 @@ end
 local function subscribe(context, args)
   local event = args.event
   if not of_world[event] and not of_session[event] then
-    failure.raise("params", "event: expected contact, contact_lost, limit, changed, diagnostic or result, got %s", event)
+    failure.raise("params", "event: expected contact, contact_lost, limit, changed, diagnostic or result, got %s", described(event))
   end
   local number = new_number(context)
   local client, notify = context.client, context.notify
