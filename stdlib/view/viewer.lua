@@ -137,6 +137,7 @@ local function draw_world(self, ui)
     self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author = world, nil, {}, nil, nil, nil
     self:home()
   end
+  if not self.picture_visible then return end
   local c = self.camera
   local options = {eye = c.eye, target = c.target, up = c.up, field_of_view = c.field_of_view, orthographic = c.orthographic}
   for name, value in pairs(self.display) do options[name] = value end
@@ -272,7 +273,7 @@ return function(options)
   local session = options.session
   local view = setmetatable({
     session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m", angle = "rad"}, edits = {}, front = {}, display = {},
-    panels_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
+    panels_visible = true, picture_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
   }, Viewer)
   local size = options.size or options.window and preferences.size()
   view.ui = clench.ui {size = size, window = options.window, title = options.title, dark = options.dark, scale = options.scale}

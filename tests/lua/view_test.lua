@@ -20,6 +20,11 @@ test("a screenshot without panels is the draft of the same camera", function(t)
   view.panels_visible = false
   local shot = view:screenshot {}
   t.equal(shot == clench.render(session.world, {size = {320, 240}, camera = view.camera, quality = "draft"}), true)
+  -- without picture and panels nothing of the world is drawn
+  view.picture_visible = false
+  local nothing = view:screenshot {}
+  session:run "grasp.autograsp"
+  t.equal(view:screenshot {} == nothing and nothing ~= shot, true)
   view:close()
 end)
 
