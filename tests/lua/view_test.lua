@@ -84,6 +84,18 @@ test("typing does not trigger shortcuts", function(t)
   view:close()
 end)
 
+test("a command that cannot run opens no dialog, and its reason is shown", function(t)
+  local session = clench.session()
+  session:run "world.new"
+  local view = clench.view.offscreen {session = session, size = {640, 480}}
+  view:key "ctrl+p"
+  view:type "planner.random"
+  view:key "enter"
+  t.equal(next(view.dialogs), nil)
+  t.equal(view.status, "Random Planner cannot run now: " .. select(2, session.commands["planner.random"].enabled(session)))
+  view:close()
+end)
+
 test("undo reverts all changes by random input", function(t)
   local session, view = open {size = {640, 480}}
   local first = session.world:hash()
