@@ -170,6 +170,7 @@ test("a gesture is one step of undo, logged as its result", function(t)
   t.equal(mug.pose.position.x, 9)
   t.fails(function() session:run "edit.redo" end, "there is nothing to redo")
   t.fails(function() clench.session():run "edit.undo" end, "there is nothing to undo")
+  t.fails(function() opened():run "edit.undo" end, "there is nothing to undo")
   session:command {name = "mine.undo", run = function(s) s:undo() end}
   t.fails(function() session:run "mine.undo" end, "session:undo: a command is running")
 end)

@@ -31,6 +31,20 @@ test("a command changes the world, and is undone and redone bit-exactly", functi
   t.equal(session:undo(), nil)
 end)
 
+test("a drag that only stops what moves is logged", function(t)
+  local session = opened()
+  session:run "grasp.autograsp"
+  session:run("dynamics.run", {seconds = 0.05})
+  for _, name in ipairs {"hand", "object"} do
+    local thing = session[name]
+    session:begin_gesture "Drag"
+    thing:move_to(thing.pose)
+    session:end_gesture()
+  end
+  t.equal(#session.history.done, 5)
+  t.equal(replayed(session):hash(), session.world:hash())
+end)
+
 test("handles of a script stay valid after undo, including those of removed bodies", function(t)
   local session = opened()
   local mug, hand, world = session.object, session.hand, session.world
