@@ -213,25 +213,3 @@ test("a planner is started, its results are stepped through, and targets become 
   t.equal(session.world:hash(), best)
   view:close()
 end)
-
-test("optimal forces are shown until something moves, and the yielding contact is named", function(t)
-  local session, view = open()
-  session:run "grasp.autograsp"
-  view:click_label "Forces"
-  view:click_label "Optimize"
-  t.equal(view.forces.result.status, "optimal")
-  t.equal(#view.shown_forces.forces, #session.world:contacts(session.hand, session.object))
-  view.forces.max_force = 1e-3
-  view:click_label "Optimize"
-  view:frame()
-  t.equal(view.forces.result.status, "infeasible")
-  t.ok(texts_of(view):find "The contact of barrett_chain%d_link%d yields first", texts_of(view))
-  view.forces.max_force = 0
-  view:click_label "Stability"
-  t.equal(view.forces.result.status, "stable")
-  view:menu "Grasp/Auto Open"
-  view:frame()
-  t.equal(view.shown_forces, nil)
-  t.ok(texts_of(view):find "Something has moved since")
-  view:close()
-end)
