@@ -6,6 +6,7 @@ local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
 local leave = require "clench.view.leave"
 local menus = require "clench.view.menus"
+local projections = require "clench.view.projections"
 local selection = require "clench.view.selection"
 local layout = {}
 
@@ -225,6 +226,7 @@ function layout.draw(view, ui)
   draw_status(view, ui, height - status_height, width, status_height)
   dialog.draw(view, ui)
   compare.draw(view, ui)
+  projections.draw_windows(view, ui)
   draw_question(view, ui)
   draw_help(view, ui)
 end
