@@ -7,6 +7,7 @@ local dialog = require "clench.view.dialog"
 local help = require "clench.view.help"
 local leave = require "clench.view.leave"
 local menus = require "clench.view.menus"
+local projections = require "clench.view.projections"
 local selection = require "clench.view.selection"
 local splitters = require "clench.view.splitters"
 local layout = {}
@@ -211,6 +212,7 @@ function layout.draw(view, ui)
   draw_status(view, ui, height - status_height, width, status_height)
   dialog.draw(view, ui)
   compare.draw(view, ui)
+  projections.draw_windows(view, ui)
   draw_question(view, ui)
   help.draw(view, ui)
 end

@@ -4,6 +4,7 @@ local dialog = require "clench.view.dialog"
 local navigation = require "clench.view.navigation"
 local preferences = require "clench.view.preferences"
 local units = require "clench.view.units"
+local with_ending = require "clench.session.with_ending"
 local menus = {}
 
 local order = {"File", "Edit", "Element", "Grasp", "Dynamics", "Jobs"}
@@ -23,7 +24,9 @@ local own = {
       end)
     end)
     ui:separator()
-    if ui:menu_item("Save Image…") then view.ask = {title = "Save Image", text = "picture.png", done = function(path) view:screenshot {path = path, panels = false} end} end
+    if ui:menu_item("Save View…") then
+      view.ask = {title = "Save View", text = "picture.png", done = function(path) view:screenshot {path = with_ending(path, ".png"), panels = false} end}
+    end
     if ui:menu_item("Save Session as Script…") then view.ask = {title = "Save Session as Script", text = "session.lua", done = function(path) view:save_script(path) end} end
     if ui:menu_item("Exit", {shortcut = bindings.shown(view, "exit")}) then view.wants_exit = true end
   end,

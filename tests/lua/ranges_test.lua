@@ -98,6 +98,9 @@ local calls = {
     options.hand, options.object = hand, object
     return clench.study.planner_speed(options)[1].accepted
   end},
+  ["clench.study.resistible_wrenches"] = {base = {count = 3, max_force = 5}, call = function(options, hand, object)
+    return clench.study.resistible_wrenches(clench.grasp(hand, object), options).area
+  end},
   ["clench.study.shake"] = study("shake", quick),
   ["clench.study.shake_base"] = study("shake_base", quick),
   ["clench.study.lift"] = study("lift", {settle = 0.05, grip_seconds = 0.05, hold = 0.05, height = 0.01}),

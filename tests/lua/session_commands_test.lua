@@ -68,6 +68,23 @@ test("commands evaluate the grasp like the functions", function(t)
   t.fails(function() clench.session(clench.world()):run "grasp.quality" end, "the command cannot run now: no object is current")
 end)
 
+test("a hand is cloned in its posture, without collisions with the original", function(t)
+  local session = opened()
+  session:run "grasp.autograsp"
+  local hand = session.hand
+  local copy = session:run "grasp.clone_hand"
+  t.equal(copy.name, hand.name .. "_2")
+  t.equal(copy.dofs, hand.dofs)
+  t.equal(copy.pose, hand.pose)
+  t.equal(session.world:may_collide(hand, copy), false)
+  t.equal(session.hand, hand)
+  t.equal(session:run("grasp.clone_hand").name, hand.name .. "_3")
+  t.equal(replayed(session):hash(), session.world:hash())
+  session:undo()
+  session:undo()
+  t.equal(#session.world.robots, 1)
+end)
+
 test("collisions are switched for the world, a body, a pair and the selection, and back", function(t)
   local session = opened()
   local world = session.world

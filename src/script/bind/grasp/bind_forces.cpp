@@ -1,4 +1,5 @@
 #include "clench/grasp/force/equilibrium.h"
+#include "clench/grasp/force/preload.h"
 #include "clench/model/dof.h"
 #include "clench/model/effort_range.h"
 #include "clench/script/bind/grasp/grasps.h"
@@ -155,6 +156,10 @@ static int largest(lua_State* L) {
   asked.load = options.vector("direction", 6);
   read_caps(options, asked);
   read_joints(options, asked);
+  if (options.has("torques")) {
+    if (!asked.joints) asked.joints.emplace();
+    asked.joints->efforts = options.vector("torques");
+  }
   options.done();
   const ForceResult r = max_load(world_of(L, g), g.grasp, asked);
   push_result(L, g, r, r.status == ForceStatus::unbounded ? "unlimited" : status_name(r.status));
@@ -180,6 +185,32 @@ static int balance(lua_State* L) {
   options.done();
   const Equilibrium e = equilibrium(world_of(L, g), g.grasp, asked);
   push_result(L, g, e.result, status_name(e.status));
+  push_unlimited(L, g, asked.joints);
+  return 1;
+}
+
+static const char* preload_status(ConeStatus status) {
+  if (status == ConeStatus::optimal) return "optimal";
+  return status == ConeStatus::infeasible ? "infeasible" : "inaccurate";
+}
+
+static int preload(lua_State* L) {
+  const auto& g = self<GraspHandle>(L);
+  Table options(L, 2);
+  PreloadOptions asked;
+  for (const auto& load : options.rows("loads", 6))
+    asked.loads.push_back(Vector6d::Map(load.data()));
+  asked.locked = options.boolean("locked", false);
+  asked.max_force = read_per_contact(options, "max_force");
+  asked.joints.unlimited = !read_limits(options, true, asked.joints);
+  asked.joints.unilateral = options.boolean("unilateral", false);
+  asked.joints.arms = options.boolean("arms", false);
+  asked.joints.link_weights = options.boolean("link_weights", false);
+  options.done();
+  const Preload r = optimal_preload(world_of(L, g), g.grasp, asked);
+  push_record(L, {{"status", preload_status(r.status)}});
+  if (!r.normals.empty())
+    set_fields(L, {{"torques", r.efforts}, {"fraction", r.fraction}, {"normals", r.normals}});
   push_unlimited(L, g, asked.joints);
   return 1;
 }
@@ -233,17 +264,32 @@ and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit
     {"max_load", guarded<largest>, R"(
 The largest multiple `load` of a wrench on the object that forces at the contacts balance, its axes as in contact_forces.
 `status` "unlimited" if no cap and no torque limits it. The `certificate` names the contacts that yield beyond it.
-`unlimited_efforts` as in contact_forces.
-@param options {direction: number[], max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean}  as in contact_forces
+`unlimited_efforts` as in contact_forces. With `torques` the motors keep these torques at every load; "infeasible" if they balance no multiple, 0
+included.
+@param options {direction: number[], max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], torques?: number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean}  as in contact_forces; torques: of the motors, one per DOF [N m or N]
 @return table result  `status`, `load`, `forces`, `margin`, `joint_torques`, `certificate`
 > grasp:max_load{direction = {0, 0, -1, 0, 0, 0}, max_force = 10}.load > 1  --> true
 > grasp:max_load{direction = {0, 0, -1, 0, 0, 0}}.status  --> unlimited)"},
+    {"optimal_preload", guarded<preload>, R"(
+The smallest torques of the motors that hold the object under each of several loads without being adjusted: their largest fraction
+of the limits is minimized. By default the torques are constant, and a finger moves unless friction transmits the change of the
+load to the palm or to joints at rest; with `locked` the joints do not move, as with worm gears: the torques press before the load is
+applied, and each contact then yields as a spring, equally stiff in all directions. `status`: "optimal"; "infeasible" if no torques
+hold all loads; "inaccurate". `torques`: one per DOF; `fraction`: largest torque as a fraction of its limit, of motors without a limit
+in N m or N; `normals`: per load, the normal force of each contact [N]. At one of the loads some contact is at the edge of its cone:
+loads larger than the true ones leave a margin. `unlimited_efforts` as in contact_forces.
+@param options {loads: number[][], locked?: boolean, torque_limits?: boolean|number[], max_force?: number|number[], unilateral?: boolean, arms?: boolean, link_weights?: boolean}  loads: wrenches on the object as in contact_forces, held one at a time; torque_limits: those of the motors by default, or one per DOF, for both directions, or false for none; others as in contact_forces
+@return table result  `status`, `torques`, `fraction`, `normals`
+> preload = grasp:optimal_preload{loads = {{0, 0, -9.81 * flask.mass, 0, 0, 0}}, locked = true}
+> preload.status, #preload.torques, preload.fraction < 1  --> optimal, 12, true
+> grasp:optimal_preload{loads = {}}  --> error: expected at least one load, got none
+> grasp:optimal_preload{loads = {{1, 2}}}  --> error: 6)"},
     {"equilibrium", guarded<balance>, R"(
 Can the hand in its present posture hold the load (as in contact_forces)? Its joints must be balanced too: by motors through their
 couplings, within hand.effort_ranges, by springs, and by the clutches of joints that have broken away. The palm resists any force. `status`: "stable"; "unstable", then `unbalanced` is the smallest
 wrench that remains and `certificate` names what yields; "moving" if no contact forces balance the joints, so that a
 finger moves; "inaccurate".
-@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean}  torque_limits: one per DOF, for both directions, or false for none where a motor exerts anything; torques: what the motors give, one per DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches at their full torque; max_force: of each contact, or one per contact [N]
+@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean}  torque_limits: one per DOF, for both directions, or false for none where a motor exerts anything; torques: of the motors, one per DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches at their full torque; max_force: of each contact, or one per contact [N]
 @return table result  `status`, `forces`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 > grasp:equilibrium{load = {0, 0, -0.1, 0, 0, 0}}.status  --> stable
 > grasp:equilibrium{load = {0, 0, -1e4, 0, 0, 0}}.status  --> unstable
