@@ -286,6 +286,7 @@ end
 ---@option on_connect? function  called with each new client
 ---@option on_close? function  called with each client that has gone; its field `reason` says why
 ---@return server server # `port`, `http`, `url` (of the live page), `token`, `session`, `close()`
+---@effect edits
 --- > server = clench.control.server {world = world, port = 0}
 --- > client = clench.port.connect("127.0.0.1", server.port)
 --- > client:write "getRobotName 1 0\n"

@@ -92,6 +92,7 @@ Glove.__close = function(self) self:close() end
 ---@option attempts? integer [1 to 1000] = 10  repetitions of what is not answered correctly
 ---@option readings? integer [1 to 99] = 1  records of which each value is the median
 ---@return cyberglove glove # `read`, `read_dofs`, `is_ready`, `close`
+---@effect edits
 --- > simulated = clench.devices.simulated.cyberglove {sensors = {10, 20, 30}}
 --- > glove = clench.devices.cyberglove {port = simulated.path}
 --- > glove:is_ready()  --> true

@@ -290,6 +290,7 @@ end
 ---@option timeout? number [s, > 0, <= 3600] = 0.05  for answers
 ---@option attempts? integer [1 to 1000] = 50  repetitions of what is not answered correctly
 ---@return dynamixel bus # `read_positions`, `write_positions`, `read_velocities`, `read_faults`, `set_torque`, `reset_watchdog`, `packet`, `close`
+---@effect edits
 --- > simulated = clench.devices.simulated.dynamixel {ids = {1, 2}}
 --- > bus = clench.devices.dynamixel {port = simulated.path, ids = {1, 2}}
 --- > bus.packet {id = 1, instruction = "ping"} == "\xFF\xFF\xFD\x00\x01\x03\x00\x01\x19\x4E"  --> true

@@ -133,6 +133,7 @@ end
 ---@option attempts? integer [1 to 1000] = 20  repetitions of what is not answered correctly
 ---@option readings? integer [1 to 99] = 1  records of which each word is the median: no checksum protects them
 ---@return flock flock # `read`, `close`
+---@effect edits
 --- > simulated = clench.devices.simulated.flock {poses = {clench.pose {xyz = {0.3, 0.1, 0.2}}}}
 --- > flock = clench.devices.flock {port = simulated.path}
 --- > pose = flock:read()[1]

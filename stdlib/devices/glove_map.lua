@@ -27,6 +27,7 @@ end
 ---@option calibration? table  {slopes, intercepts}; that of the hand, `hand.glove`, by default
 ---@option dofs? table  rows of the calibration by the numbers of DOFs; by default each DOF has the row of its number
 ---@return fun(raw: number[]): number[]
+---@effect reads
 --- > calibration = {slopes = {{0.01}}, intercepts = {-0.5}}
 --- > to_dofs = clench.devices.glove_map {hand = hand, calibration = calibration, dofs = {[2] = 1}}
 --- > math.abs(to_dofs({60})[2] - 0.1) < 1e-12, to_dofs({60})[1] == hand.dofs[1]  --> true, true

@@ -131,13 +131,14 @@ end
 ---@param options table
 ---@option hand robot  the simulated hand
 ---@option device any  a driver with `read` and `move`, or `read_positions` and `write_positions`
----@option dofs? integer[]  DOFs of the hand, one for each value of the device; all by default
+---@option dofs? index[]  DOFs of the hand, one for each value of the device; all by default
 ---@option signs? number[]  1 or -1 for each value; DOF = sign * value + offset
 ---@option offsets? number[]  for each value [rad or m]
 ---@option limits? number[][]  ranges of values that are sent; those of the simulated hand by default
 ---@option max_speed? number [rad/s or m/s, > 0] = 1  of each value that is sent
 ---@option interval? number [s, > 0] = 0.1  longest time for which one call of push moves
 ---@return mirror mirror # `pull`, `push`
+---@effect reads
 --- > device = {read = function() return {0, 1, 1, 1} end, move = function() end}
 --- > clench.devices.mirror {hand = hand, device = device, dofs = {1, 1}}  --> error: dofs[2] must be another number
 return function(options)

@@ -70,6 +70,7 @@ gripper.complete(Robotiq)
 ---@option poll? number [s, >= 0] = 0.02  between two questions whether a motion has ended
 ---@option attempts? integer [1 to 1000] = 50  repetitions of what is not answered correctly
 ---@return robotiq gripper # `activate`, `move`, `read`, `stop`, `close`
+---@effect edits
 --- > simulated = clench.devices.simulated.robotiq {}
 --- > gripper = clench.devices.robotiq {port = simulated.path}
 --- > gripper:activate()

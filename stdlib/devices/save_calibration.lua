@@ -5,6 +5,7 @@ local raise = require "clench.raise"
 --- Writes a calibration as GraspIt! does, with all digits: `clench.files.glove_calibration` reads the same numbers.
 ---@param path string  file to write
 ---@param calibration table  {slopes, intercepts}, as of clench.devices.calibrate
+---@effect files
 --- > path = os.tmpname()
 --- > clench.devices.save_calibration(path, {slopes = {{0.1, 0}}, intercepts = {1 / 3}})
 --- > clench.files.glove_calibration(path).intercepts[1] == 1 / 3  --> true

@@ -18,6 +18,10 @@ empty:run(0.1)
 local readers = {
   ["clench.file_kind"] = clench.file_kind,
   ["clench.convert"] = function(path) clench.convert(path, inside .. "/x.obj") end,
+  ["clench.convert{folder}"] = function(path) clench.convert(inside .. "/names_file.urdf", inside .. "/x.xml", {folder = path:match "^(.*)/"}) end,
+  ["clench.convert{package}"] = function(path) clench.convert(inside .. "/names_package.urdf", inside .. "/x.xml", {package = path:match "^(.*)/"}) end,
+  ["clench.convert{eigengrasps}"] = function(path) clench.convert(inside .. "/plain.urdf", inside .. "/x.xml", {eigengrasps = path}) end,
+  ["clench.convert{virtual_contacts}"] = function(path) clench.convert(inside .. "/plain.urdf", inside .. "/x.xml", {virtual_contacts = path}) end,
   ["clench.load"] = clench.load,
   ["clench.load{folder}"] = function(path) clench.load(inside .. "/names_file.urdf", {folder = path:match "^(.*)/"}) end,
   ["clench.load{package}"] = function(path) clench.load(inside .. "/names_package.urdf", {package = path:match "^(.*)/"}) end,
@@ -145,6 +149,21 @@ assert(#unlisted == 0, "entries that open files are not tried here: " .. table.c
 local count = 0
 for _ in pairs(found) do count = count + 1 end
 assert(count > 25, count)
+
+-- the descriptions say the same: these are the entries with the effect `files`, apart from those that touch files of their own only
+local own_files = {["clench.catalog"] = true, ["clench.test.path"] = true, ["clench.test.folder"] = true, ["clench.test.run_file"] = true}
+local variables = {}
+for _, class in ipairs(all.classes) do variables[class.name] = class.variable end
+local tried = {}
+for _, list in ipairs {readers, writers} do
+  for name in pairs(list) do tried[name:gsub("{.*", ""):gsub("^(%w+):", function(class) return (variables[class] or class) .. ":" end)] = true end
+end
+local different = {}
+for _, entry in ipairs(clench.describe()) do
+  local touches = entry.files == true and not own_files[entry.name]
+  if touches ~= (tried[entry.name] == true) then different[#different + 1] = entry.name end
+end
+assert(#different == 0, "the effect of these entries does not fit this list: " .. table.concat(different, ", "))
 
 -- --- reading ---
 

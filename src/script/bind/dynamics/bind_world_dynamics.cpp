@@ -259,6 +259,7 @@ static const Entry world_dynamics_methods[] = {
 Simulates: everything that is free moves by gravity, contacts and the motors of robots. Each step first moves bodies with the
 velocities that they have, then finds contacts, then solves for new velocities. Afterwards exactly so much time has passed.
 @param seconds number  [s]
+@effect long
 > world:run(0.01)
 > world.time  --> 0.01
 > world:run(-1)  --> error: expected a time from 0)"},
@@ -267,10 +268,12 @@ The first half of a step: moves everything with the velocity that it has, until 
 approach each other touch.
 @param dt number  [s]
 @return number passed  in (0, dt] [s]
+@effect edits
 > world:move_bodies(0.001)  --> 0.001)"},
     {"solve_velocities", guarded<solve_velocities>, R"(
 The second half of a step: the velocities that contacts, forces, motors and limits leave after the time in which they act.
 @param h number  what move_bodies gave [s]
+@effect edits
 > world:solve_velocities(world:move_bodies(0.001))
 > world.report.steps  --> 1)"},
     {"clear_forces", method<[](const WorldHandle& x) {
@@ -278,6 +281,7 @@ The second half of a step: the velocities that contacts, forces, motors and limi
      }>,
      R"(
 Clears the forces and torques of `apply_force` and `apply_torque` for the next step.
+@effect edits
 > flask:apply_force({0, 0, 1})
 > world:clear_forces()
 > world.gravity = {0, 0, 0}
@@ -286,16 +290,19 @@ Clears the forces and torques of `apply_force` and `apply_torque` for the next s
     {"momentum", guarded<get_momentum>, R"(
 Total momentum of all objects and robots; the angular one about the origin of the world.
 @return {linear: vec3, angular: vec3}  [kg m/s], [kg m^2/s]
+@effect reads
 > world:momentum().linear  --> (0, 0, 0))"},
     {"energy", guarded<get_energy>, R"(
 Total energy of all objects and robots: kinetic, and potential relative to the origin of the world, including springs.
 @return {kinetic: number, potential: number}  [J]
+@effect reads
 > world:energy().kinetic  --> 0.0)"},
     {"average_contacts", guarded<average_contacts>, R"(
 Contact force on each of some bodies in the last step: the sum of the forces and their center. Bodies on which nothing
 presses are left out.
 @param links body|body[]  link or links whose contacts are averaged
 @return {link: body, force: vec3, point: vec3, count: integer}[]  [N], [m]
+@effect reads
 > #world:average_contacts(hand)  --> 0)"},
 };
 
