@@ -117,6 +117,7 @@ gripper.complete(Gripper)
 ---@option poll? number [s, >= 0] = 0.02  between two questions whether a motion has ended
 ---@option attempts? integer [1 to 1000] = 50  repetitions of what is not answered correctly
 ---@return robotiq_3f gripper # `activate`, `set_mode`, `move`, `read`, `stop`, `close`
+---@effect edits
 --- > simulated = clench.devices.simulated.robotiq_3f {}
 --- > gripper = clench.devices.robotiq_3f {port = simulated.path}
 --- > gripper:activate()

@@ -65,6 +65,7 @@ end
 ---@option arms? boolean  also limits of the arms that carry the hand
 ---@option link_weights? boolean  motors also carry the weight of the links
 ---@return {axes: string[], rays: table[], area: number?} # rays: {status, wrench, load, point, contact, dof} from the first axis towards the second: `status` as in grasp:max_load, `wrench` the direction, whose torque is 1 N times grasp.rho; `load` its largest multiple, infinite if unlimited, nil if infeasible; `point` the end of the ray, {x, y} [N or N m]; `contact` or `dof` yields beyond it. area of the section; nil if a ray has no end
+---@effect long
 --- > held = clench.study.resistible_wrenches(grasp, {axes = {"fx", "fz"}, count = 4, max_force = 5})
 --- > #held.rays, held.rays[1].load > 0, held.area > 0  --> 4, true, true
 --- > clench.study.resistible_wrenches(grasp, {axes = {"fx", "fx"}})  --> error: axes must be two different coordinates

@@ -70,7 +70,7 @@ TEST_CASE("given torques limit the largest load") {
 
 TEST_CASE("a preload without loads is rejected, and so are invalid loads") {
   const Jaws j = jaws(DofKind::rigid, 0.5, 10);
-  CHECK_THROWS_WITH_AS(ask(j, {}), "optimal preload: expected at least one load, got none", Error);
+  CHECK_THROWS_WITH_AS(ask(j, PreloadOptions{}), "optimal preload: expected at least one load, got none", Error);
   PreloadOptions options{.loads = {wrench(0, 0, std::numeric_limits<double>::infinity(), 0, 0, 0)}};
   CHECK_THROWS_WITH_AS(ask(j, options), "contact forces: load holds a number that is not finite",
                        Error);
