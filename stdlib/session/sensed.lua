@@ -44,10 +44,10 @@ local function count(session)
   return (glove and glove.count or 0) + (tracker and tracker.count or 0)
 end
 
--- one turn: an error ends the following and becomes a diagnostic
+-- one turn: an error, such as a lost device, ends the following and becomes a diagnostic
 local function turn(session, following)
   local now = count(session)
-  if now == following.count then return end
+  if now == following.count and sensed.can_apply(session) then return end
   following.count = now
   local ok, problem = pcall(sensed.apply, session)
   if ok then return session:emit("changed", {following = true}) end

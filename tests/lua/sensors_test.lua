@@ -200,6 +200,11 @@ test("a device that does not answer stops nothing, and one that is lost is repor
   local other <close> = simulated.cyberglove {}
   connect(t, session, "glove", other)
   t.equal(session.sensors.glove.problem, nil)
+  load_calibration(session)
+  session:run "sensors.follow"
+  other:unplug()
+  run_until(t, function() return session.following == nil end)
+  t.equal(messages[#messages], "session: the glove is lost")
 
   local broken <close> = simulated.cyberglove {}
   broken.state = 1
