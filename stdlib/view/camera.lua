@@ -76,6 +76,13 @@ function camera.zoomed(c, factor)
   return nearer
 end
 
+--- The camera that shows in a rectangle of a screen what another one shows on a screen of the rectangle's size.
+---@param size number[]  of the whole screen [pixels]
+function camera.within(c, size, x, y, width, height)
+  if width < 1 or height < 1 or width == size[1] and height == size[2] then return c end
+  return camera.panned(camera.zoomed(c, size[2] / height), size, x + (width - size[1]) / 2, y + (height - size[2]) / 2)
+end
+
 --- The camera with a new target, at the same distance and from the same direction.
 function camera.centered(c, target) return with_eye(c, target + (c.eye - c.target), target) end
 

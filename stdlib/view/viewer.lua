@@ -76,7 +76,9 @@ function Viewer:home(all)
     self.camera = self.home_camera
     return
   end
-  self.camera = clench.camera(self.session.world, {size = {self.ui.size[1], self.ui.size[2]}, frame = all and "all" or "contacts"})
+  local x, y, width, height = layout.uncovered(self)
+  local c = clench.camera(self.session.world, {size = {math.max(1, width // 1), math.max(1, height // 1)}, frame = all and "all" or "contacts"})
+  self.camera = camera.within(c, self.ui.size, x, y, width, height)
 end
 
 --- Switches between perspective and orthographic projection.
