@@ -1,6 +1,7 @@
 --- The viewer: a session's world in a window or off-screen, with menus, panels and tools. Every action is a command of the session.
 local autosave = require "clench.view.autosave"
 local camera = require "clench.view.camera"
+local check = require "clench.view.check"
 local class = require "clench.class"
 local described = require "clench.described"
 local dialog = require "clench.view.dialog"
@@ -137,6 +138,7 @@ local function draw_world(self, ui)
     self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author = world, nil, {}, nil, nil, nil
     self:home()
   end
+  self.camera = camera.complete(world, self.ui.size, self.camera)
   local c = self.camera
   local options = {eye = c.eye, target = c.target, up = c.up, field_of_view = c.field_of_view, orthographic = c.orthographic}
   for name, value in pairs(self.display) do options[name] = value end
@@ -183,12 +185,13 @@ end
 ---@param options {path: string, camera?: table, panels?: boolean}  camera: that of the view by default; panels: as they are by default
 ---@return picture
 function Viewer:screenshot(options)
+  options = check.options("view:screenshot", options, {"path", "camera", "panels"})
   local before, visible = self.camera, self.panels_visible
-  if options.camera then self.camera = options.camera end
+  local _ <close> = setmetatable({}, {__close = function() self.camera, self.panels_visible = before, visible end})
+  if options.camera ~= nil then self.camera = options.camera end
   if options.panels ~= nil then self.panels_visible = options.panels end
   self:frame()
   local picture = self.ui:read()
-  self.camera, self.panels_visible = before, visible
   if options.path then picture:save(options.path) end
   return picture
 end
@@ -204,10 +207,15 @@ end
 
 --- The pixel of a point; nil behind the camera.
 ---@param point vec3  in the world [m]
-function Viewer:project(point) return camera.project(self.camera, self.ui.size, point) end
+function Viewer:project(point)
+  return camera.project(self.camera, self.ui.size, check.point("view:project", "point", point))
+end
 
 --- What lies under a pixel: body, point, normal, distance; nil where nothing is.
-function Viewer:pick(x, y) return tools.pick(self, x, y) end
+function Viewer:pick(x, y)
+  check.numbers("view:pick", "x y", x, y)
+  return tools.pick(self, x, y)
+end
 
 --- Handles of the current tool on the selection: `name`, the pixel `x`, `y` at which a drag takes hold of it, and `value` and `limits` of the DOF of a joint.
 ---@return table[] handles
@@ -217,6 +225,7 @@ function Viewer:handles() return tools.handles(self) end
 ---@param yaw number  [degrees]
 ---@param pitch number  [degrees]
 function Viewer:orbit(yaw, pitch)
+  check.numbers("view:orbit", "yaw pitch", yaw, pitch)
   self.camera = camera.orbited(self.camera, math.rad(yaw), math.rad(pitch))
   self:frame()
 end

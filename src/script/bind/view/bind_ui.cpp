@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "clench/base/hash.h"
@@ -29,10 +31,11 @@ int make_ui(lua_State* L) {
   const bool window = options.boolean("window", false);
   const std::string title = options.string("title", "Clench");
   options.done();
-  const int width = static_cast<int>(size[0]), height = static_cast<int>(size[1]);
+  const auto pixels = [](double n) { return static_cast<int>(std::clamp(n, -1.0, 1e6)); };
+  const int width = pixels(size[0]), height = pixels(size[1]);
   std::unique_ptr<Screen> screen =
       window ? make_window(width, height, title) : make_offscreen(width, height);
-  if (window && !options.has("scale")) style.scale = screen->scale();
+  if (window && !options.has("scale")) style.scale = std::clamp(screen->scale(), 0.25, 8.0);
   return push_object(L, UiHandle{std::make_shared<Gui>(std::move(screen), style)});
 }
 
@@ -96,6 +99,10 @@ int ui_input(lua_State* L) {
                                {"drop", Kind::drop}},
                               Kind::move);
   event.x = options.number("x", 0), event.y = options.number("y", 0);
+  constexpr double max_position = 1e6;  // [pixels]
+  if (!(std::abs(event.x) <= max_position && std::abs(event.y) <= max_position))
+    fail("{}: x and y: expected -1e6 to 1e6 pixels, got {} and {}", options.subject(), event.x,
+         event.y);
   event.code = options.integer("code", 0);
   event.down = options.boolean("down", false);
   event.text = options.string("text", "");
@@ -206,7 +213,7 @@ int ui_text_of(lua_State* L) {
 static const Entry ui_functions[] = {
     {"ui", guarded<make_ui>, R"(
 Opens a user interface: a window, or a framebuffer that needs no display. clench.view builds the viewer on it.
-@param options? {size?: number[], window?: boolean, title?: string, dark?: boolean, scale?: number}  size: width and height [pixels]; window: true opens one; scale: of fonts and sizes, by default that of the monitor
+@param options? {size?: number[], window?: boolean, title?: string, dark?: boolean, scale?: number}  size: width and height [pixels]; window: true opens one; scale: of fonts and sizes, 0.25 to 8, by default that of the monitor
 @return ui
 > u = clench.ui {size = {64, 48}}
 > u:frame(0.01, function(ui) ui:window("w", {x = 0, y = 0, width = 64, height = 48}, function() ui:button "go" end) end)
@@ -302,7 +309,7 @@ Sets the title of the window.
 > ui.size[1]  --> 320.0)"},
     {"set_style", guarded<ui_set_style>, R"(
 Sets theme and sizes from the next frame on.
-@param options {dark?: boolean, scale?: number, font_size?: number}  font_size [pixels]
+@param options {dark?: boolean, scale?: number, font_size?: number}  scale: 0.25 to 8; font_size [pixels]: times scale from 4 to 128
 > ui:set_style {font_size = 0}  --> error: font_size)"},
     {"take_dropped", guarded<ui_take_dropped>, R"(
 Files that were dropped on the window since the last call.
