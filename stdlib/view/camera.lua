@@ -3,6 +3,15 @@ local camera = {}
 
 local least_distance = 1e-4  -- of eye and target [m]
 
+local function is_vector(x) return clench.type(x) == "vec3" end
+
+--- A camera of a script, which may lack fields or have lists for points, as clench.render reads it; errors name what is wrong.
+---@param size number[]  of the screen [pixels]
+function camera.complete(world, size, c)
+  if type(c) == "table" and is_vector(c.eye) and is_vector(c.target) and is_vector(c.up) and type(c.field_of_view) == "number" then return c end
+  return clench.camera(world, {size = {size[1], size[2]}, camera = c})
+end
+
 --- Axes of a camera in the world: right, up, and backwards, from target to eye.
 function camera.axes(c)
   local back = (c.eye - c.target):unit()
