@@ -12,7 +12,8 @@ local selection = require "clench.view.selection"
 local splitters = require "clench.view.splitters"
 local layout = {}
 
-local menu_height, bar_height, status_height = 24, 36, 28  -- [pixels]
+local menu_height, bar_height, status_height = 24, 36, 28  -- at scale 1 [pixels]
+local line_height = 28  -- of widgets at scale 1 [pixels]
 local tall_share = 0.72  -- of the height of its column
 local user_panels = {}  -- that scripts have added, by name and in order
 
@@ -78,7 +79,7 @@ local function draw_strip(view, ui, place, list, rect)
   ui:window(place, rect, function(ui)
     local left = 0
     for i, panel in ipairs(list) do
-      local wide = 7.4 * #panel.name + 22
+      local wide = (7.4 * #panel.name + 22) * view.scale
       if i > 1 and left + wide < rect.width then ui:same_line(4) else left = 0 end
       left = left + wide
       if ui:button(panel.name, {selected = panel == front}) then view.front[place] = panel.name end
@@ -135,14 +136,14 @@ local function choose(view, ui, label, list, current, command, argument)
   for i, thing in ipairs(list) do
     if thing == current then index = i end
   end
-  ui:width(95)
+  ui:width(95 * view.scale)
   local chosen, changed = ui:combo(label, index, names)
   if changed then view:run(command, {[argument] = names[chosen]}) end
   ui:same_line()
 end
 
 local function draw_bar(view, ui, y, width)
-  ui:window("tool bar", {x = 0, y = y, width = width, height = bar_height, title = false, scroll = false}, function(ui)
+  ui:window("tool bar", {x = 0, y = y, width = width, height = bar_height * view.scale, title = false, scroll = false}, function(ui)
     for _, tool in ipairs(view.tools) do
       if ui:button(tool .. "##tool", {selected = view.current_tool == tool}) then view.current_tool = tool end
       ui:tooltip(("%s  %s"):format(tool, bindings.shown(view, "tool " .. tool)))
@@ -192,9 +193,12 @@ local function draw_question(view, ui)
   autosave.draw(view, ui)
 end
 
+-- bars and panels have the scale of the text
+local function follow_scale(view) view.scale = view.ui.line_height / line_height end
+
 -- where the columns and the bottom row end, as far as they have panels [pixels]
 local function edges_of(view, width, height)
-  local top, bottom = menu_height + bar_height, height - status_height - splitters.size(view, "bottom")
+  local top, bottom = (menu_height + bar_height) * view.scale, height - status_height * view.scale - splitters.size(view, "bottom")
   local left, right = splitters.size(view, "left"), width - splitters.size(view, "right")
   local edges = {left = {at = left, from = top, to = bottom}, right = {at = right, from = top, to = bottom}, bottom = {at = bottom, from = left, to = right}}
   for name in pairs(edges) do
@@ -208,25 +212,28 @@ end
 function layout.uncovered(view)
   local width, height = view.ui.size[1], view.ui.size[2]
   if not view.panels_visible then return 0, 0, width, height end
+  follow_scale(view)
   local edges = edges_of(view, width, height)
   local left, right = edges.left and edges.left.at or 0, edges.right and edges.right.at or width
-  local top, bottom = menu_height + bar_height, edges.bottom and edges.bottom.at or height - status_height
+  local top, bottom = (menu_height + bar_height) * view.scale, edges.bottom and edges.bottom.at or height - status_height * view.scale
   return left, top, right - left, bottom - top
 end
 
 --- Draws all panels.
 function layout.draw(view, ui)
   local width, height = ui.size[1], ui.size[2]
+  follow_scale(view)
+  local menu, status = menu_height * view.scale, status_height * view.scale
   menus.draw(view, ui)
-  draw_bar(view, ui, menu_height, width)
-  local top = menu_height + bar_height
+  draw_bar(view, ui, menu, width)
+  local top = menu + bar_height * view.scale
   local left, right, below = splitters.size(view, "left"), splitters.size(view, "right"), splitters.size(view, "bottom")
-  local bottom = height - status_height - below
+  local bottom = height - status - below
   draw_column(view, ui, "left", 0, top, left, bottom - top)
   draw_column(view, ui, "right", width - right, top, right, bottom - top)
   draw_bottom(view, ui, 0, bottom, width, below)
   view.edges = edges_of(view, width, height)
-  draw_status(view, ui, height - status_height, width, status_height)
+  draw_status(view, ui, height - status, width, status)
   dialog.draw(view, ui)
   compare.draw(view, ui)
   projections.draw_windows(view, ui)

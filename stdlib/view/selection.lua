@@ -56,7 +56,7 @@ function selection.draw_bar(view, ui)
     if name == current then index = i end
   end
   ui:disabled(#list == 0, function(ui)
-    ui:width(90)
+    ui:width(90 * view.scale)
     local chosen, changed = ui:combo("##material", index, names)
     if changed and names[chosen] then view:run("body.material", {material = names[chosen]}) end
   end)

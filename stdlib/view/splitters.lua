@@ -1,8 +1,8 @@
 --- The edges between the picture and the panels around it, which are dragged to change the sizes of the panels.
 local splitters = {}
 
-splitters.default = {left = 264, right = 264, bottom = 190}  -- widths, and a height [pixels]
-splitters.least = 120  -- of each [pixels]
+splitters.default = {left = 264, right = 264, bottom = 190}  -- widths, and a height, at scale 1 [pixels]
+splitters.least = 120  -- of each, at scale 1 [pixels]
 
 local reach = 5  -- of an edge into the picture [pixels]
 local least_picture = 160  -- width and height that stay between the panels [pixels]
@@ -13,7 +13,7 @@ local least_picture = 160  -- width and height that stay between the panels [pix
 function splitters.size(view, name)
   local width, height = view.ui.size[1], view.ui.size[2]
   local most = name == "bottom" and height - least_picture - 120 or (width - least_picture) / 2
-  return math.max(splitters.least, math.min(view.sizes[name], most))
+  return math.max(splitters.least * view.scale, math.min(view.sizes[name] * view.scale, most))
 end
 
 -- the direction in which the mouse makes the panels larger: of each edge its axis and sign
@@ -35,8 +35,8 @@ function splitters.update(view)
   local held = view.splitting
   if held then
     local axis, sign = directions[held.name][1], directions[held.name][2]
-    view.sizes[held.name] = math.floor(held.size + sign * (mouse[axis] - held.start) + 0.5)
-    view.sizes[held.name] = splitters.size(view, held.name)
+    view.sizes[held.name] = (held.size + sign * (mouse[axis] - held.start)) / view.scale
+    view.sizes[held.name] = splitters.size(view, held.name) / view.scale
     if not mouse.left.down then view.splitting = nil end
     return true
   end

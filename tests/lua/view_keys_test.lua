@@ -124,9 +124,11 @@ test("edges of the panels are dragged, within limits, and the picture is not", f
   view:drag(450, view.edges.bottom.at - 2, 450, view.edges.bottom.at + 18)
   t.equal(view.sizes.bottom, before.bottom - 20)
   t.ok(view.camera == camera)
+  local tab
   for _, item in ipairs(view:items()) do
-    if item.kind == "window" and item.label == "bottom" then t.close(item.height, view.sizes.bottom, 1) end
+    if item.kind == "tab" and item.label == "Console" then tab = item end
   end
+  t.ok(tab.y > view.edges.bottom.at and tab.y < view.edges.bottom.at + 20)
   view:drag(view.edges.left.at + 2, 300, 5, 300)
   t.equal(view.sizes.left, 120)
   view:drag(view.edges.left.at + 2, 300, 890, 300)
@@ -136,6 +138,29 @@ test("edges of the panels are dragged, within limits, and the picture is not", f
   view:frame()
   t.equal(view.edges.left, nil)
   view:close()
+end)
+
+test("on a monitor of twice the resolution bars and panels are twice as large, and do not cover each other", function(t)
+  local session = clench.session()
+  session:open("worlds/barrett_mug.wld", {root = "."})
+  local function windows(size, scale)
+    local view = clench.view.offscreen {session = session, size = size, scale = scale}
+    view.picture_visible = false
+    view:frame()
+    view:frame()
+    local rects = {}
+    for _, item in ipairs(view:items()) do
+      if item.kind == "window" or item.label == "Camera" and item.window == "tool bar" then rects[item.label] = item end
+    end
+    view:close()
+    return rects
+  end
+  local once, twice = windows({900, 700}, 1), windows({1800, 1400}, 2)
+  t.ok(once.World and once.Inspector and once["Grasp Quality"])
+  for name, rect in pairs(once) do
+    for _, field in ipairs {"x", "y", "width", "height"} do t.close(twice[name][field], 2 * rect[field], 2) end
+  end
+  t.ok(twice.World.y > twice.Camera.y + twice.Camera.height)
 end)
 
 test("keys, navigation, sizes and the panel in front are kept, and damaged values are ignored", function(t)
