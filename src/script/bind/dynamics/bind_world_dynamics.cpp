@@ -237,9 +237,9 @@ Length of the steps of `run`; from 1e-7 to 1.
 > world.time_step = 0  --> error: time step)",
      setter<set_time_step>},
     {"dynamics", guarded<get_dynamics>, R"(
-Solver settings; a copy, and setting a table changes the keys that it contains. `engine`: "clench", or "ode", which solves the same
-contacts by another library, at most 1,000 points in a step; `cone`: friction cones are "round", or a "pyramid" of `edges` edges, of which bodies
-that touch each other have at most 6,000; more is an error of the kind "limit".
+Solver settings. Returns a copy; setting a table changes the keys that it contains. `engine`: "clench", or "ode", which solves the same
+contacts with the library ODE, at most 1,000 points per step; `cone`: friction cones are "round", or a "pyramid" of `edges` edges, of which each group of
+touching bodies has at most 6,000; more is an error of the kind "limit".
 @type {time_step: number, engine: string, cone: string, edges: integer}
 > world.dynamics = {engine = "ode"}
 > world.dynamics.engine, world.dynamics.time_step  --> ode, 0.001
@@ -256,20 +256,20 @@ as velocities [m/s].
 
 static const Entry world_dynamics_methods[] = {
     {"run", guarded<run>, R"(
-Simulates: everything that is free moves by gravity, contacts and the motors of robots. Each step first moves bodies with the
-velocities that they have, then finds contacts, then solves for new velocities. Afterwards exactly so much time has passed.
+Simulates: all free bodies move under gravity, contacts and the motors of robots. Each step first moves bodies with
+their present velocities, then finds contacts, then solves for new velocities. The simulation time advances by exactly the given time.
 @param seconds number  [s]
 > world:run(0.01)
 > world.time  --> 0.01
 > world:run(-1)  --> error: expected a time from 0)"},
     {"move_bodies", guarded<move_bodies>, R"(
-The first half of a step: moves everything with the velocity that it has, until the time has passed or two bodies that
-approach each other touch.
+First half of a step: moves everything with its present velocity, until the time has passed or two approaching bodies
+touch.
 @param dt number  [s]
 @return number passed  in (0, dt] [s]
 > world:move_bodies(0.001)  --> 0.001)"},
     {"solve_velocities", guarded<solve_velocities>, R"(
-The second half of a step: the velocities that contacts, forces, motors and limits leave after the time in which they act.
+Second half of a step: computes the velocities that result after contacts, forces, motors and limits have acted for the given time.
 @param h number  what move_bodies gave [s]
 > world:solve_velocities(world:move_bodies(0.001))
 > world.report.steps  --> 1)"},
@@ -277,14 +277,14 @@ The second half of a step: the velocities that contacts, forces, motors and limi
        for (Load& load : x.world->edit_dynamics().loads) load = {};
      }>,
      R"(
-Clears the forces and torques of `apply_force` and `apply_torque` for the next step.
+Clears the forces and torques that `apply_force` and `apply_torque` have set for the next step.
 > flask:apply_force({0, 0, 1})
 > world:clear_forces()
 > world.gravity = {0, 0, 0}
 > world:run(0.001)
 > flask.velocity.linear  --> (0, 0, 0))"},
     {"momentum", guarded<get_momentum>, R"(
-Total momentum of all objects and robots; the angular one about the origin of the world.
+Total momentum of all objects and robots; the angular momentum is about the origin of the world.
 @return {linear: vec3, angular: vec3}  [kg m/s], [kg m^2/s]
 > world:momentum().linear  --> (0, 0, 0))"},
     {"energy", guarded<get_energy>, R"(
@@ -292,7 +292,7 @@ Total energy of all objects and robots: kinetic, and potential relative to the o
 @return {kinetic: number, potential: number}  [J]
 > world:energy().kinetic  --> 0.0)"},
     {"average_contacts", guarded<average_contacts>, R"(
-Contact force on each of some bodies in the last step: the sum of the forces and their center. Bodies on which nothing
+Resultant contact force on each of the given bodies in the last step, and its center. Bodies on which nothing
 presses are left out.
 @param links body|body[]  link or links whose contacts are averaged
 @return {link: body, force: vec3, point: vec3, count: integer}[]  [N], [m]

@@ -103,8 +103,8 @@ static const std::vector<GraspHandle>& items_of(const GraspList& list) { return 
 
 static const Entry grasps_functions[] = {
     {"grasps", guarded<list_grasps>, R"(
-A list of grasps: an empty one, or one from a file, in any format that `save` writes; the ending or `format` selects it, and
-for `.json` and `.txt` files their contents. Its grasps belong to no world: they have the file's contacts, posture
+A list of grasps: empty, or read from a file in any format that `save` writes; the ending or `format` selects it, and
+for `.json` and `.txt` files the contents do. Its grasps belong to no world: they have the file's contacts, posture
 and measures, and `apply` puts them into a world.
 @param path? string  file of grasps to read; without it the list is empty
 @param options? {root?: string, confine?: string, format?: string, dof_order?: string|string[], hand?: robot, strict?: boolean}  format: "jsonl", "csv", "npz", "isaac_grasp", "graspgen", "multigripper" or "graspit" (results of its planner); dof_order: names of DOFs that the file does not name, as a list, or as "isaac", breadth first, or "hand", in the order of the DOFs of `hand`
@@ -129,7 +129,7 @@ Appends a copy of a grasp, including its measures.
 > clench.grasps():add(grasp)  --> 1)"},
     {"save", guarded<grasps_save>, R"(
 Writes the list. JSON lines (`.jsonl`, or no ending) store everything: a head with the version, then a grasp on each line, with bit-exact numbers.
-`.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by
+`.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are selected by their endings, too, `.json` of GraspGen and MultiGripperGrasp by
 `format`; a warning names everything that a format cannot represent. The same list gives the same bytes.
 @param path string  file to write; its ending selects the format
 @param options? {format?: string, notes?: table, compress?: boolean}  format: as clench.grasps takes it; compress: the arrays of an .npz; notes: plain data about the list as such, for the head of JSON lines
@@ -141,8 +141,8 @@ Writes the list. JSON lines (`.jsonl`, or no ending) store everything: a head wi
 > list:save("grasps.txt", {format = "cvs"})  --> error: unknown format 'cvs', expected one of jsonl, csv
 > list:save "no_such_folder/grasps.jsonl"  --> error: no such folder)"},
     {"check_save", guarded<grasps_check_save>, R"(
-Checks that `save` can write there, before a long search for instance: the format is known, the folder exists, and file and
-folder may be written. Changes no file.
+Checks that `save` can write there, for instance before a long search: the format is known, the folder exists, and file and
+folder are writable. Changes no file.
 @param path string  file that is to be written; its ending selects the format
 @param options? {format?: string}  as of `save`
 @return string format

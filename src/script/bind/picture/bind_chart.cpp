@@ -64,10 +64,10 @@ static int chart_draw(lua_State* L) {
 
 static const Entry chart_functions[] = {
     {"chart", guarded<chart_draw>, R"(
-Draws numbers as columns, one panel per series, each with its own scale, all over the same items, with the value at each column if
-it fits; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value
-that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts
-that are too long lose their middle. It needs no graphics hardware.
+Draws numbers as columns: one panel per series, each with its own scale, all over the same items, with the value at each column if
+it fits. The best column of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a missing
+value, and marked. Texts are UTF-8; characters that the font lacks are drawn as boxes, and a warning names them. Texts
+that are too long are shortened in the middle. No graphics hardware is needed.
 @param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer}  labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
 @return plot  to be saved as PNG or SVG
 > clench.chart{series = {{name = "epsilon", values = {0.1, 0.3, 0.2}}}, height = 200}  --> plot of 960 x 200 pixels

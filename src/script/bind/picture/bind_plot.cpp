@@ -142,9 +142,9 @@ static int make_sheet(lua_State* L) {
 
 static const Entry plot_functions[] = {
     {"plot", guarded<make_plot>, R"(
-Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them; with `categories`, numbers
-over names, as bars next to each other. `false` and values that are not finite are left out, and a line has a gap there. Color-blind people can distinguish the colors. It needs no
-graphics hardware.
+Plots numbers over numbers: lines, points, and bars between edges, such as those of clench.stats.histogram; with `categories`, numbers
+over names, as bars next to each other. `false` and values that are not finite are left out, and leave a gap in a line. Color-blind people can distinguish the colors. No
+graphics hardware is needed.
 @param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], categories?: string[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer}  kind: "line", "points" or "bars", by default a line, of categories bars; categories: of each, every series has one y and no x; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
 @return plot
 > p = clench.plot{series = {{name = "epsilon", x = {0, 1, 2}, y = {0.1, 0.3, 0.2}}}, x_label = "angle [rad]"}
@@ -155,7 +155,7 @@ graphics hardware.
 > clench.plot{series = {{y = {1, 2}}}, y_scale = "log", y_range = {0, 1}}  --> error: y_range: expected numbers > 0 on a logarithmic axis, got 0 and 1
 > clench.plot{series = {{x = {1, 2}, y = {1}}}}  --> error: series 1: expected 1 values of x, as there are of y, got 2)"},
     {"sheet", guarded<make_sheet>, R"(
-Several pictures in one, in rows, each with its caption under it, and notes under all.
+Several pictures in one, in rows, each with its caption below it, and notes at the bottom.
 @param options {pictures: (picture|plot)[], captions?: string[], notes?: string[], columns?: integer, gap?: integer}  captions: of one or more lines; notes: lines of text, broken where they are too wide; columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
 @return picture
 > small = clench.render(world, {size = {64, 48}})
@@ -165,7 +165,7 @@ Several pictures in one, in rows, each with its caption under it, and notes unde
 
 static const Entry plot_fields[] = {
     {"picture", getter<[](const PlotHandle& x) { return paint(*x.drawing, Font()); }>, R"(
-It as pixels, on white.
+The figure as pixels, on white.
 @type picture
 > clench.plot{series = {{y = {1, 2}}}, width = 100, height = 80}.picture.width  --> 100)"},
     {"width", getter<[](const PlotHandle& x) { return x.drawing->width; }>, R"(
@@ -180,7 +180,7 @@ Its height [pixels].
 
 static const Entry plot_methods[] = {
     {"save", guarded<plot_save>, R"(
-Writes a file: .svg, whose lines and letters a program for papers can change, or .png.
+Writes a file: .svg, whose lines and letters drawing programs can edit, or .png.
 @param path string  file to write, .svg or .png
 > clench.plot{series = {{y = {1, 2}}}}:save "build/line.svg"
 > clench.plot{series = {{y = {1, 2}}}}:save "line.pdf"  --> error: expected a name that ends in .svg or .png, got 'line.pdf')"},

@@ -50,7 +50,7 @@ Millimeters to meters.
 @return number  [m]
 > clench.mm(25)  --> 0.025)"},
     {"clock", guarded<clock_now>, R"(
-Seconds of a clock that runs evenly from some moment: how long something took.
+Seconds of a monotonic clock with an arbitrary origin, to measure durations.
 @return number  [s]
 > before = clench.clock()
 > clench.clock() >= before  --> true)"},

@@ -131,8 +131,8 @@ static std::string text_of_eigengrasps(const EigengraspsHandle& x) {
 static const Entry eigengrasps_functions[] = {
     {"eigengrasps", guarded<make>, R"(
 A set of eigengrasps: the principal components of `postures`, the strongest first, with their mean as the origin; or
-`vectors`, which are made unit. Of each principal component the largest entry is positive, and its eigenvalue is the
-variance along it. `count` keeps the first ones. Give it to a hand: hand.eigengrasps = set.
+the given `vectors`, normalized. The largest entry of each principal component is positive, and its eigenvalue is the
+variance along it. `count` keeps the first ones. Give the set to a hand: hand.eigengrasps = set.
 @param options {postures?: number[][], count?: integer, vectors?: number[][], eigenvalues?: number[], origin?: number[], norm?: number[], limits?: number[][]}
 @return eigengrasps
 > set = clench.eigengrasps{postures = {{0, 0}, {1, 2}, {2, 4}}}
@@ -148,7 +148,7 @@ A unit vector for each eigengrasp, one number per DOF.
 @type number[][]
 > #hand.eigengrasps.vectors[1]  --> 12)"},
     {"eigenvalues", getter<[](const EigengraspsHandle& x) { return x.ready().eigenvalues(); }>, R"(
-Weight of each eigengrasp: of principal components the variance of the postures along it.
+Weight of each eigengrasp; for principal components, the variance of the postures along it.
 @type number[]
 > set = clench.eigengrasps{postures = {{0, 0}, {1, 0}, {2, 0}}}
 > set.eigenvalues  --> {1.0})"},
@@ -184,28 +184,28 @@ The hand that the set belongs to; nil for an independent set.
        return handle.set || handle.robot->eigengrasps;
      }>,
      R"(
-Is it from a file or a script? A hand without a set has one eigengrasp per DOF.
+Is the set from a file or a script? A hand without a set has one eigengrasp per DOF.
 @type boolean
 > hand.eigengrasps = nil
 > hand.eigengrasps.is_custom  --> false
 > #hand.eigengrasps  --> 12)"},
     {"count", getter<[](const EigengraspsHandle& x) { return x.ready().size(); }>, R"(
-Their number, like #.
+Number of eigengrasps, like #.
 @type integer
 > clench.eigengrasps{vectors = {{1, 1}}}.count  --> 1)"},
 };
 
 static const Entry eigengrasps_methods[] = {
     {"amplitudes", guarded<amplitudes>, R"(
-Amplitudes of the posture of the set that is nearest to DOF values; without them, to the hand's own.
+Amplitudes for which the set's posture is nearest to the DOF values; without these, to the hand's own.
 @param dofs? number[]  [rad or m]
 @return number[]
 > set = clench.eigengrasps{vectors = {{1, 0, 0}, {0, 3, 4}}}
 > set:amplitudes{2, 3, 4}  --> {2.0, 5.0}
 > set:amplitudes{1}  --> error: expected 3 DOF values, got 1)"},
     {"dofs", guarded<dofs>, R"(
-DOF values of amplitudes; they may lie outside the limits. With `from`, a posture, its component outside its own
-amplitudes is kept.
+DOF values of amplitudes; they may lie outside the limits. With `from`, the component of that posture that no
+amplitudes represent is kept.
 @param amplitudes number[]  one amplitude per eigengrasp
 @param options? {from?: number[]}
 @return number[]  [rad or m]
