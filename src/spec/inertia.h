@@ -43,7 +43,8 @@ Inertial repair_inertia(Eigen::Matrix3d& per_mass);
 
 /// Warning for an inertia whose other moments were raised.
 inline constexpr const char* raised_moments =
-    "inertia that no body has, as one moment exceeds the sum of the others; these are raised to it";
+    "impossible inertia, as one moment exceeds the sum of the others; these are increased to equal "
+    "it";
 
 /// The symmetric part of `rows` [m^2], repaired; empty if it is not an inertia: that of the shape
 /// is to be used. All three cases are reported, with `place` in front.

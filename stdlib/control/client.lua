@@ -45,7 +45,7 @@ end
 function Client:send(text)
   if self.is_closed then return end
   local ok, why = self.port:send(text)
-  if not ok then self:close(why == "full" and "it does not read" or why) end
+  if not ok then self:close(why == "full" and "it does not receive" or why) end
 end
 
 --- Closes the connection at once.

@@ -116,7 +116,7 @@ end
 
 local function add(self, port)
   if #self.clients >= self.max_clients then
-    port:send(("Error: the server has %d clients and takes no more\n"):format(self.max_clients))
+    port:send(("Error: the server has %d clients and accepts no more\n"):format(self.max_clients))
     return port:close()
   end
   port.max_line, port.max_queue = self.max_line, self.max_queue
@@ -212,7 +212,7 @@ local function read_options(options)
   local stdio = o:get "stdio"
   server.mcp = o:get "mcp"
   o:done()
-  if server.mcp and not stdio then o:fail "mcp: expected stdio, too" end
+  if server.mcp and not stdio then o:fail "mcp: requires stdio" end
   if stdio then
     if path ~= nil or host ~= nil then o:fail "stdio: expected either stdio, or a path, or host and port" end
     server.token = nil

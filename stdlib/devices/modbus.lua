@@ -42,7 +42,7 @@ local function ask(master, bytes, size, doing)
     local answer, why = exchange(master, request, size)
     if why == "closed" or why == "unplugged" then device.fail(master.subject, master.port, why, doing) end
     if answer and answer:byte(2) == bytes:byte(2) then return answer end
-    if answer then raise(("%s: the device refuses: %s (exception %d)"):format(master.subject, doing, answer:byte(3)), "stale") end
+    if answer then raise(("%s: the device rejects the request: %s (exception %d)"):format(master.subject, doing, answer:byte(3)), "stale") end
   end
   device.fail(master.subject, master.port, "timeout", doing)
 end

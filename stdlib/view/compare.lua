@@ -72,7 +72,7 @@ end
 local function draw_picture(view, ui, entry, number, camera)
   ui:group(function(ui)
     if ui:button("Apply##compared" .. number) then view:run("grasp.apply", {grasp = entry.grasp}) end
-    ui:tooltip "Puts the hand into this grasp."
+    ui:tooltip "Moves the hand to this grasp."
     ui:same_line()
     ui:text(entry.label)
     if entry.error then return ui:text(entry.error, {color = orange, wrap = true}) end

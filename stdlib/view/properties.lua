@@ -76,7 +76,7 @@ function properties.draw(view, ui)
   local bodies = bodies_of(selection)
   local kind = edit.common(bodies, function(body) return body.kind end)
   ui:text(("%s%s"):format(kind or "several kinds", #bodies > 1 and (", %d bodies"):format(#bodies) or ""), {color = gray})
-  if kind == "obstacle" then ui:tooltip "An obstacle stands still while dynamics play." end
+  if kind == "obstacle" then ui:tooltip "Obstacles do not move while dynamics play." end
   draw_material(view, ui, bodies)
   draw_mass(view, ui, bodies)
   draw_transparency(view, ui, bodies)

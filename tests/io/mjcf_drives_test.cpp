@@ -109,7 +109,7 @@ TEST_CASE("dampers hold nothing, and an integrator reaches what its control and 
   const ToldRobot opens = actuated(servo + "actrange='-0.1 0'/>");
   CHECK(at_rest(opens.robot) == EffortRange{-10, 0});
   CHECK(opens.dof("a").kp == 100);
-  CHECK(opens.warned("<intvelocity>: targets of its motor stand for its activation"));
+  CHECK(opens.warned("<intvelocity>: targets of its motor represent its activation"));
   CHECK(at_rest(actuated(servo + "actrange='-1 1' ctrlrange='-1 0'/>").robot) ==
         EffortRange{-100, 0});
   CHECK(at_rest(actuated(servo + "ctrlrange='-1 1'/>").robot) == EffortRange{-none, none});

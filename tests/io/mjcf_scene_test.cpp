@@ -117,8 +117,8 @@ TEST_CASE("a plane is a large plate below it") {
   CHECK(floor.X_WB.position.z() == 1);
   CHECK(floor.body.shape->bounds().high.isApprox(Eigen::Vector3d(5, 7, 0)));
   CHECK(floor.body.shape->bounds().low.z() == doctest::Approx(-0.1));
-  CHECK(told.noted(
-      "scene.xml:1: geom: a plane has no end; a plate of 10 x 14 x 0.1 m stands for it"));
+  CHECK(
+      told.noted("scene.xml:1: geom: a plane is infinite; a plate of 10 x 14 x 0.1 m replaces it"));
 }
 
 TEST_CASE("friction becomes materials that combine as MuJoCo has it") {
@@ -142,8 +142,8 @@ TEST_CASE("friction becomes materials that combine as MuJoCo has it") {
       "</body>");
   CHECK(mixed.world.bodies[0].body.material == "friction 2");
   CHECK(
-      mixed.warned("scene.xml: bodies whose geoms differ in friction, of which that of the "
-                   "highest priority, then the largest counts for all: 'x'"));
+      mixed.warned("scene.xml: bodies whose geoms differ in friction; the one of the highest "
+                   "priority, then the largest, is used for all: 'x'"));
   CHECK(failure("<geom size='1' friction='2e6'/>") ==
         "scene.xml:1: geom: friction: expected a number from 0 to 1e+06, got 2000000");
 }
@@ -204,13 +204,13 @@ TEST_CASE("couplings and actuators belong to the robot whose joints they name") 
   CHECK(told.world.robots[1].robot.dofs.size() == 1);
   CHECK(told.world.robots[0].robot.actuators.empty());
   CHECK(told.world.robots[1].robot.actuators.size() == 1);
-  CHECK(told.warned("joint: joint 'a' is of another robot; this is not used"));
+  CHECK(told.warned("joint: joint 'a' belongs to another robot; this is not used"));
   CHECK(told.noted("joints that no actuator drives do not close: 'a'"));
   const ToldWorld shared(arm + finger,
                          "<tendon><fixed name='t'><joint joint='a' coef='1'/><joint joint='p' "
                          "coef='1'/></fixed></tendon><actuator><motor tendon='t'/></actuator>");
   CHECK(shared.warned(
-      "motor: drives a tendon that joins two robots; of each it moves its own joints"));
+      "motor: drives a tendon of two robots; in each robot it moves the joints of that robot"));
 }
 
 TEST_CASE("keyframes become named states") {
@@ -326,7 +326,7 @@ TEST_CASE("an equality of one joint holds it where it says") {
   CHECK(robot.links[0].joints[0].min == 0.3);
   CHECK(robot.links[0].joints[0].max == 0.3);
   CHECK(robot.dofs[0].default_value == 0.3);
-  CHECK(told.noted("scene.xml:1: joint 'a' may only stand at 0.3 rad, as the equality says"));
+  CHECK(told.noted("scene.xml:1: joint 'a' is fixed at 0.3 rad because of the equality"));
   CHECK(!told.warned("ctrlrange"));
   // relative to the initial configuration of the model
   const ToldWorld from(
@@ -334,7 +334,7 @@ TEST_CASE("an equality of one joint holds it where it says") {
       "<geom size='1'/></body></body>",
       held);
   CHECK(from.world.robots[0].robot.dofs[0].default_value == 2.3);
-  CHECK(from.noted("joint 'a' may only stand at 2.3 m, as the equality says"));
+  CHECK(from.noted("joint 'a' is fixed at 2.3 m because of the equality"));
 }
 
 TEST_CASE("of negative gains the magnitude is used, with a warning") {
@@ -384,7 +384,7 @@ TEST_CASE("a scene's bits are kept, and excluded pairs are listed") {
   }
   CHECK(fixed == 2);
   CHECK(other == 1);
-  CHECK(told.noted("4 pairs of bodies never collide, as contype and conaffinity say"));
+  CHECK(told.noted("4 pairs of bodies never collide because of contype and conaffinity"));
   CHECK(told.warned("exclude: no body 'no' is read; this is not used"));
   CHECK(told.warned("pairs of which a geom is not read are not used: 'x' and 'y'"));
 }
@@ -513,11 +513,10 @@ TEST_CASE("one robot of a scene is read by its body") {
   const RobotSpec robot = read_robot(path, {.root = {}, .body = "door"});
   CHECK(robot.name == "door");
   CHECK(robot.dofs.size() == 1);
-  CHECK_THROWS_WITH_AS(
-      read_robot(path, {.root = {}, .body = "mug"}),
-      "scene.xml: body: expected one that a tree of joints begins with, got 'mug', "
-      "expected one of arm, door",
-      Error);
+  CHECK_THROWS_WITH_AS(read_robot(path, {.root = {}, .body = "mug"}),
+                       "scene.xml: body: expected the root of a tree of joints, got 'mug', "
+                       "expected one of arm, door",
+                       Error);
   CHECK_THROWS_WITH_AS(read_robot("tests/data/two_finger/claw.cfg", {.root = {}, .body = "x"}),
                        "claw.cfg: body: expected a scene of MJCF, got another file", Error);
 }

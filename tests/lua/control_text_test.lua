@@ -245,7 +245,7 @@ test("misbehaving clients are dropped, and others continue", function(t)
     t.equal(ask("getRobotName 1 0", 1), {hand.name})
     loop.sleep(0.01)
   end
-  t.equal(gone, {"an HTTP request", "a line was too long", "it does not read"})
+  t.equal(gone, {"an HTTP request", "a line was too long", "it does not receive"})
   local others = {}
   for i = 1, 3 do others[i] = clench.port.connect("127.0.0.1", server.port) end
   t.equal(others[3]:read_line(5), "Error: the server has 3 clients and takes no more")

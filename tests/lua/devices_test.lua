@@ -272,7 +272,7 @@ test("Robotiq: frames are those of the gripper's manual", function(t)
   t.equal({state.object, state.fault, state.is_moving}, {"closing", 0, false})
   t.close(state.opening, 0.085 * (1 - 128 / 255), 1e-12)
   t.equal(gripper:move(0.085).object, nil)
-  t.fails(function() modbus.read(gripper, 0, 1) end, "the device refuses: reading registers (exception 2)")
+  t.fails(function() modbus.read(gripper, 0, 1) end, "the device rejects the request: reading registers (exception 2)")
 end)
 
 test("Robotiq: three fingers move together or each for itself, in all modes, and report what they meet", function(t)

@@ -59,7 +59,7 @@ test("a grasp without a hand needs one, which must be in the given world", funct
   local file = test.path ".json"
   list:save(file, {format = "graspgen"})
   local back = clench.grasps(file)[1]
-  t.fails(function() back:apply(world, {object = world.objects[1]}) end, "it does not name its hand; one has to be given")
+  t.fails(function() back:apply(world, {object = world.objects[1]}) end, "it does not name its hand; give one")
   t.fails(function() back:apply(world, {hand = world:clone().robots[1]}) end, "hand: expected one of that world, got one of another")
   t.fails(function() back:apply(world, {hands = 1}) end, "unknown key 'hands'")
   local before = world.robots[1].dofs

@@ -116,7 +116,7 @@ test("a snapshot restores into clones, and into no other world", function(t)
   world:restore(later)
   t.equal(#world.objects, 2)
   t.equal(world.objects[1].mass, 2)
-  t.fails(function() clench.world():restore(moment) end, "taken of another one, of which this is no clone")
+  t.fails(function() clench.world():restore(moment) end, "belongs to another world, of which this is no clone")
 end)
 
 local function turntable(joint_type, limit)

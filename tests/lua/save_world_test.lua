@@ -217,7 +217,7 @@ test("a camera is set by eye and target or by its pose", function(t)
   t.equal(world.camera.target, clench.vec3 {1, 2, 1})
   world.camera = nil
   t.equal(world.camera, nil)
-  t.fails(function() world.camera = {eye = {0, 0, 0}, target = {0, 0, 0}} end, "eye and target apart")
+  t.fails(function() world.camera = {eye = {0, 0, 0}, target = {0, 0, 0}} end, "different eye and target")
   t.fails(function() world.camera = {eye = {1, 0, 0}, target = {0, 0, 0}, field_of_view = 1} end, "field_of_view: expected 0.785")
 end)
 

@@ -75,7 +75,7 @@ void check_coordinates(const std::vector<int>& coordinates) {
     if (coordinates[i] < 0 || coordinates[i] > 5)
       fail("wrench space: coordinates must be 0 to 5, got {}", coordinates[i]);
     if (std::count(coordinates.begin(), coordinates.end(), coordinates[i]) > 1)
-      fail("wrench space: coordinate {} is there twice", coordinates[i]);
+      fail("wrench space: coordinate {} is given twice", coordinates[i]);
   }
 }
 

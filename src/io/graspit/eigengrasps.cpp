@@ -318,7 +318,7 @@ void write_eigengrasps(const EigengraspSet& set, const fs::path& path,
       set.grasps, [](const EigengraspSpec& grasp) { return grasp.limits.has_value(); });
   if (limited && lower_case(path.extension().string()) == ".egr")
     diagnostics.warn(Place(path.filename().string()),
-                     "the text format has no place for limits of amplitudes; .xml has");
+                     "the text format cannot store limits of amplitudes; .xml can");
   write_file(path, text);
 }
 

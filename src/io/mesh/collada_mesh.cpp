@@ -58,7 +58,7 @@ class MeshReader {
 void spend(const XmlElement& e, size_t count, ColladaWork& work) {
   work.left -= static_cast<long>(count);
   if (work.left < 0)
-    e.fail("{}: expected less to read, meshes that are used several times counted each time",
+    e.fail("{}: expected less data, with meshes that are used several times counted each time",
            e.name());
 }
 
@@ -72,7 +72,7 @@ std::vector<double> read_numbers(const XmlElement& e, ColladaWork& work) {
 void check_count(const XmlElement& e, size_t got, ColladaWork& work) {
   if (!e.attribute("count") || static_cast<size_t>(e.integer_attribute("count", 0)) == got) return;
   work.warnings.insert(
-      fmt::format("counts of <{}> that differ from what stands there are not used", e.name()));
+      fmt::format("counts of <{}> that differ from its contents are not used", e.name()));
 }
 
 /// Rows of at most three numbers with these names, as described by a <source> and its accessor.

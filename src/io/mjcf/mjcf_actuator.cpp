@@ -154,9 +154,9 @@ std::optional<std::array<double, 2>> limited_range(const XmlValues& values, Mjcf
   const auto both = values.range(range, document.repairs());
   if (limited == "auto" && both[0] == 0 && both[1] == 0) return {};
   if (limited == "auto" && !document.settings(values.element()).autolimits)
-    document.repairs().add(
-        "autolimits", values.subject(range),
-        "expected {}=\"true\" beside it, as autolimits is off; the range is used", limited_name);
+    document.repairs().add("autolimits", values.subject(range),
+                           "expected {}=\"true\" with it, as autolimits is off; the range is used",
+                           limited_name);
   return both;
 }
 

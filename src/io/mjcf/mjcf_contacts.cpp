@@ -228,9 +228,10 @@ void MjcfContacts::filter_links(MjcfTree& tree, bool fixed_base) {
         model.always_meet.emplace_back(i, j);
     }
   if (apart > 0)
-    cache_.diagnostics().note(Place(document_.file()),
-                              "{} pair{} of links never collide{}, as contype and conaffinity say",
-                              apart, apart == 1 ? "" : "s", apart == 1 ? "s" : "");
+    cache_.diagnostics().note(
+        Place(document_.file()),
+        "{} pair{} of links never collide{} because of contype and conaffinity", apart,
+        apart == 1 ? "" : "s", apart == 1 ? "s" : "");
 }
 
 void MjcfContacts::tell(const std::function<bool(const std::string&)>& is_read) {

@@ -119,10 +119,11 @@ bool Couplings::is_elsewhere(const std::string& name) const {
 
 /// Reason why the robot lacks a joint of this name; empty if the file has no such joint.
 std::string Couplings::why_not(const std::string& name) const {
-  if (numbers_.contains(name + "_x")) return "is a ball, which became three turns";
-  if (is_elsewhere(name)) return "is of another robot";
+  if (numbers_.contains(name + "_x")) return "is a ball, which became three hinges";
+  if (is_elsewhere(name)) return "belongs to another robot";
   if (const auto found = file_joints_.is_free.find(name); found != file_joints_.is_free.end())
-    return found->second ? "is free, and no joint of the robot" : "is of a body that is not read";
+    return found->second ? "is free, and does not belong to the robot"
+                         : "belongs to a body that is not read";
   return file_joints_.composes ? "may be of a <composite> or <flexcomp>, which are not read" : "";
 }
 
@@ -202,7 +203,7 @@ void Couplings::tie_joints(const XmlElement& element, const XmlValues& values) {
     tied.min = tied.max = tied.motor.default_value = tied.zero + c[0];
     tied.endless = false;
     cache_.diagnostics().note(element.place(),
-                              "joint '{}' may only stand at {:.4g} {}, as the equality says",
+                              "joint '{}' is fixed at {:.4g} {} because of the equality",
                               excerpt(tied.name), tied.motor.default_value,
                               tied.kind == JointKind::revolute ? "rad" : "m");
     return;
@@ -216,7 +217,7 @@ void Couplings::tie_joints(const XmlElement& element, const XmlValues& values) {
   if (leader == follower) values.fail("joint2", "expected another joint than joint1");
   if (c[1] == 0)
     cache_.diagnostics().suspected(element.place().of("joint '{}'", excerpt(tied.name)),
-                                   "polycoef has no linear part: it stands still when '{}' moves",
+                                   "polycoef has no linear part: it does not move with '{}'",
                                    excerpt(tree_.joints[leader].name));
   // both are relative to the initial configuration
   tie_joint(tree_, follower, leader, c[1], tied.zero + c[0] - c[1] * tree_.joints[leader].zero,
@@ -269,18 +270,18 @@ void Couplings::tell_law(const MjcfActuator& actuator) {
   const XmlElement& element = actuator.values.element();
   if (!actuator.spec.law_known && unknown_laws_.insert(kind).second)
     cache_.diagnostics().warn(element.place().of("<{}>", excerpt(kind)),
-                              "how its force follows from its control is not kept");
+                              "the law of its force is not kept");
   if (!actuator.spec.law_known) return;
   if (actuator.spec.gain_slopes != std::array{0.0, 0.0} && unknown_laws_.insert(kind).second)
     cache_.diagnostics().warn(element.place().of("<{}>", excerpt(kind)),
-                              "motors of a run do not follow its gain, which depends on length or "
-                              "velocity; efforts at rest do");
+                              "its gain, which depends on length or velocity, affects efforts at "
+                              "rest, but not the motors of a run");
   if (actuator.dynamics == "none" || !unknown_laws_.insert(kind + " " + actuator.dynamics).second)
     return;
   if (actuator.dynamics == "integrator")
     cache_.diagnostics().warn(
         element.place().of("<{}>", excerpt(kind)),
-        "targets of its motor stand for its activation, the integral of its control");
+        "targets of its motor represent its activation, the integral of its control");
   else
     cache_.diagnostics().warn(
         element.place().of("<{}>", excerpt(kind)),
@@ -315,7 +316,7 @@ void Couplings::read_actuator(const XmlElement& element) {
     if (drive.tendon->elsewhere)
       cache_.diagnostics().warn(
           element.place().of(excerpt(element.name())),
-          "drives a tendon that joins two robots; of each it moves its own joints");
+          "drives a tendon of two robots; in each robot it moves the joints of that robot");
   } else {
     for (const char* target : {"site", "body", "cranksite"})
       if (values.has(target)) return add_unused(targets_, target, element, values);

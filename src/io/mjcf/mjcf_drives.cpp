@@ -103,7 +103,7 @@ void Drives::take_control_range(const MjcfDrive& drive) {
         excerpt(joint.name));
   if (low == high)
     cache_.diagnostics().note(actuator.values.element().place(),
-                              "joint '{}' may only stand at {:.4g}, as ctrlrange says",
+                              "joint '{}' is fixed at {:.4g} because of ctrlrange",
                               excerpt(joint.name), low);
   if (joint.endless || low > joint.min || high < joint.max) narrowed_.push_back(joint.name);
   joint.min = low, joint.max = high, joint.endless = false;
@@ -182,8 +182,8 @@ void Drives::tie(const MjcfDrive& drive) {
                              lead.endless ? "no limits" : range_text(lead.min, lead.max),
                              range_text(low, high));
     cache_.diagnostics().warn(at.place(),
-                              "joints '{}' and '{}' share a tendon, '{}', and lose a DOF; they are "
-                              "taken to turn as 1 to {:.4g}{}",
+                              "joints '{}' and '{}' share a tendon, '{}', and become one DOF; "
+                              "their ratio is assumed to be 1 to {:.4g}{}",
                               excerpt(lead.name), excerpt(joint.name), excerpt(tendon.name), ratio,
                               narrowed);
   }
@@ -287,7 +287,7 @@ void Drives::tell_powerless() const {
   if (!names.empty())
     cache_.diagnostics().warn(
         place,
-        "actuators that exert no force, for their gear, gain or range is 0, drive nothing: {}",
+        "actuators that exert no force, because their gear, gain or range is 0, drive nothing: {}",
         some_names(names));
 }
 

@@ -155,7 +155,7 @@ void MjcfGeoms::set_plane(const XmlValues& values, MjcfGeom& geom) {
   for (auto& p : mesh.vertices) p.z() -= plane_thickness / 2;
   geom.piece.geometry = geometry_.made(fmt::format("plane {} {}", x, y), std::move(mesh));
   cache_.diagnostics().note(values.element().place().of("geom"),
-                            "a plane has no end; a plate of {} x {} x {} m stands for it", 2 * x,
+                            "a plane is infinite; a plate of {} x {} x {} m replaces it", 2 * x,
                             2 * y, plane_thickness);
 }
 

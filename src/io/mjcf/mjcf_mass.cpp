@@ -28,7 +28,7 @@ void MjcfTreeReader::read_inertial(const XmlElement& element, int link, const Po
   }
   if (const auto wrong = fault(mass_rule, mass); !wrong.empty()) {
     cache_.diagnostics().warn(element.place().of("body '{}'", excerpt(body.name)),
-                              "mass: {}; the geometry gives it", wrong);
+                              "mass: {}; it is computed from the geometry", wrong);
     return;
   }
   const MjcfSettings& settings = document_.settings(element);

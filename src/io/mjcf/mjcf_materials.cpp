@@ -33,8 +33,8 @@ std::string MjcfMaterials::of(const std::vector<MjcfGeom>& geoms, const std::str
 void MjcfMaterials::tell(const FileCache& cache) const {
   if (!mixed_.empty())
     cache.diagnostics().warn(Place(file_),
-                             "bodies whose geoms differ in friction, of which that of the highest "
-                             "priority, then the largest counts for all: {}",
+                             "bodies whose geoms differ in friction; the one of the highest "
+                             "priority, then the largest, is used for all: {}",
                              some_names(mixed_));
 }
 

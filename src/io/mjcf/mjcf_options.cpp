@@ -36,10 +36,10 @@ static bool read_flags(const XmlElement& element, const FileCache& cache, WorldS
   }
   if (!world.collision_on)
     cache.diagnostics().note(element.place().of("flag"),
-                             "contacts are off, as the file says; nothing collides");
+                             "the file disables contacts; nothing collides");
   if (!idle.empty())
     cache.diagnostics().note(element.place().of("flag"),
-                             "of MuJoCo's solver alone, and not used: {}", name_list(idle));
+                             "settings of MuJoCo's solver are not used: {}", name_list(idle));
   if (!lost.empty())
     cache.diagnostics().warn(element.place().of("flag"), "not used: {}", name_list(lost));
   return gravity;

@@ -320,10 +320,10 @@ void SceneReader::set_bits() {
   for (const auto& [i, j] : apart.listed)
     world_.always_meet.push_back({parts_[i].ref, parts_[j].ref});
   if (apart.by_bits > 0)
-    cache_.diagnostics().note(Place(model_.document().file()),
-                              "{} pair{} of bodies never collide{}, as contype and conaffinity say",
-                              apart.by_bits, apart.by_bits == 1 ? "" : "s",
-                              apart.by_bits == 1 ? "s" : "");
+    cache_.diagnostics().note(
+        Place(model_.document().file()),
+        "{} pair{} of bodies never collide{} because of contype and conaffinity", apart.by_bits,
+        apart.by_bits == 1 ? "" : "s", apart.by_bits == 1 ? "s" : "");
 }
 
 /// Accepts a scene without bodies if its <worldbody> is empty, too.

@@ -88,8 +88,8 @@ void add_tendon_dynamics(const MjcfTendon& tendon, MjcfDocument& document, const
   if (!range && out.stiffness == 0 && out.damping == 0 && out.friction == 0) return;
   if (!tendon.complete) {
     cache.diagnostics().warn(subject,
-                             "limits, stiffness, damping and frictionloss are not used, for some "
-                             "of its joints are not of the robot");
+                             "limits, stiffness, damping and frictionloss are not used, because "
+                             "some of its joints do not belong to the robot");
     return;
   }
   // length = sum of coefficients times DOFs + offset

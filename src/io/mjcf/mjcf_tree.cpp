@@ -150,7 +150,7 @@ void MjcfTreeReader::read_body(const MjcfNode& node, int parent, const std::stri
   tree_.model.links[link].body.gravity_compensation = carried;
   if (base && whole_ == std::string_view("robot") && !(X == Pose{}))
     cache_.diagnostics().note(element.place(),
-                              "body '{}' is the base; its place in the file is not used",
+                              "body '{}' is the base; its pose in the file is not used",
                               excerpt(tree_.model.links[link].body.name));
   read_contents(node, link, inherited, Pose{});
   weigh(element, link);
@@ -198,9 +198,9 @@ void MjcfTreeReader::set_range(const XmlValues& values, TreeJoint& joint) {
   // two zeros cancel the range of the class
   const bool has_range = given_range(values);
   if (limited == "auto" && has_range && !settings.autolimits)
-    document_.repairs().add("autolimits", values.subject("range"),
-                            "expected limited=\"true\" beside it, as autolimits is off; the range "
-                            "is used");
+    document_.repairs().add(
+        "autolimits", values.subject("range"),
+        "expected limited=\"true\" with it, as autolimits is off; the range is used");
   if (limited == "true" && !values.has("range"))
     document_.repairs().add("limited", values.subject("limited"),
                             "expected a range, got none; there are no limits");
@@ -217,8 +217,8 @@ void MjcfTreeReader::set_range(const XmlValues& values, TreeJoint& joint) {
   joint.min = range[0] * unit;
   joint.max = range[1] * unit;
   if (joint.min == joint.max)
-    cache_.diagnostics().note(joint.place, "joint '{}' may only stand at {:.4g} {}",
-                              excerpt(joint.name), joint.min, turns ? "rad" : "m");
+    cache_.diagnostics().note(joint.place, "joint '{}' is fixed at {:.4g} {}", excerpt(joint.name),
+                              joint.min, turns ? "rad" : "m");
 }
 
 void MjcfTreeReader::add_joint(TreeJoint joint, const XmlElement& element, int link) {
@@ -239,7 +239,8 @@ void MjcfTreeReader::read_free_motion(const XmlValues& values, BodySpec& body) {
   body.free_friction = values.not_negative("frictionloss", 0, document_.repairs());
   body.free_armature = values.not_negative("armature", 0, document_.repairs());
   if (linear_part(values, "stiffness", subject, document_, cache_) != 0)
-    cache_.diagnostics().warn(subject, "a spring holds no free body here; stiffness is not used");
+    cache_.diagnostics().warn(subject,
+                              "springs of free bodies are not supported; stiffness is not used");
   if (values.has("springdamper")) cache_.diagnostics().warn(subject, "springdamper is not used");
 }
 
@@ -305,7 +306,7 @@ void MjcfTreeReader::read_joint(const XmlElement& element, int link, const std::
     most = std::min(most, values.numbers("range", 2, 2)[1] * unit);
   if (!(most > 0)) values.fail("range", "expected a largest angle > 0");
   cache_.diagnostics().note(joint.place,
-                            "joint '{}' is a ball; it becomes three turns of at most {:.4g} rad",
+                            "joint '{}' is a ball; it becomes three hinges of at most {:.4g} rad",
                             excerpt(joint.name), most);
   tree_.slots[link].push_back({QposSlot::Kind::ball, static_cast<int>(tree_.model.joints.size())});
   for (int i = 0; i < 3; ++i) {

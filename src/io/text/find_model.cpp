@@ -62,7 +62,7 @@ fs::path find_converted(const std::string& name, const fs::path& referrer, Model
   } catch (const Error& missing) {
     const fs::path sibling = try_endings(name, referrer, kind, options);
     if (sibling.empty()) throw missing;
-    options.diagnostics.note(place, "there is no {}; {} is taken", name,
+    options.diagnostics.note(place, "there is no {}; {} is used instead", name,
                              sibling.filename().string());
     return sibling;
   }

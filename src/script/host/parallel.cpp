@@ -361,7 +361,7 @@ Calls a function for each item of a list, in several threads, each with a separa
 > clench.parallel.map(function(x) return x * x end, {1, 2, 3})  --> {1, 4, 9}, 0
 > clench.parallel.map(function(p, s) s.body.pose = p; return s.body.pose.position.z end, {clench.pose {xyz = {0, 0, 2}}}, {shared = {body = flask}})  --> {2.0}, 0
 > clench.parallel.map(function(x) return hand.dofs end, {1})[1].error:match "global 'hand'" ~= nil  --> true
-> clench.parallel.map(function() return world end, {print})  --> error: items[1]: a function cannot be handed over)"},
+> clench.parallel.map(function() return world end, {print})  --> error: items[1]: a function cannot be copied to another state)"},
     {"nice", guarded<nice>, R"(
 Niceness of the threads that `map` and `clench.job` start from now on; 10 gives an open window priority over them.
 @param level? integer  from 0, as the script itself, to 19; without it the level stays

@@ -45,7 +45,7 @@ end
 local function confined_options(server, name, given)
   local options = {root = server.folder, confine = server.folder}
   for key, value in pairs(type(given) == "table" and given or {}) do
-    if key == "root" or key == "confine" or key == "folder" or key == "package" then failure.raise("refused", "%s: options.%s is the server's", name, key) end
+    if key == "root" or key == "confine" or key == "folder" or key == "package" then failure.raise("refused", "%s: options.%s is chosen by the server", name, key) end
     options[key] = value
   end
   return options
@@ -62,7 +62,7 @@ function files.confine(server, command, args)
   local name = command.name
   if not names_files(command) then return args end
   if not server.folder then failure.raise("refused", "%s: this server reads and writes no files (it was started without a folder)", name) end
-  if not known[name] then failure.raise("refused", "%s: commands of scripts that name files are not for clients", name) end
+  if not known[name] then failure.raise("refused", "%s: a client cannot run commands that scripts have added and that name files", name) end
   if has_own_file(server, name, args) then return args end
   local out = {}
   for key, value in pairs(args) do out[key] = value end
@@ -80,7 +80,7 @@ local planners = {primitive = true, sample = true, antipodal = true, random = tr
 --- Checks that a planner is one whose options, as they are given, name no files.
 function files.check_planner(planner, options)
   if not planners[planner] then failure.raise("params", "planner: expected primitive, sample, antipodal, random, anneal, loop or guided, got %s", planner) end
-  if options.root ~= nil or type(options.primitives) == "string" then failure.raise("refused", "options of a planner name no files") end
+  if options.root ~= nil or type(options.primitives) == "string" then failure.raise("refused", "options of a planner must not name files") end
 end
 
 return files

@@ -31,7 +31,7 @@ end
 
 local function field_of(thing, field)
   local value = thing[field]  -- an error names what is near
-  if type(value) == "function" then failure.raise("params", "%s.%s is a method, and no field", clench.type(thing), field) end
+  if type(value) == "function" then failure.raise("params", "%s.%s is a method, not a field", clench.type(thing), field) end
   return value
 end
 
@@ -119,16 +119,16 @@ add("world.distance", "Distance of two things [m], and the closest points.", {a,
   return {distance = distance, on_a = on_a, on_b = on_b}
 end)
 
-add("world.raycast", "What a ray meets first; null: nothing.",
+add("world.raycast", "First hit of a ray; null if there is none.",
     {{name = "origin", type = "vec3", unit = "m", text = "first point"}, {name = "direction", type = "vec3", text = "of any length"},
-     {name = "reach", type = "number", optional = true, min = 0, unit = "m", text = "how far it goes"}},
+     {name = "reach", type = "number", optional = true, min = 0, unit = "m", text = "longest distance of a hit; by default unlimited"}},
     function(context, args) return world_of(context):raycast(args.origin, args.direction, args.reach) end)
 
 add("world.energy", "Energy of all objects and robots [J].", {}, function(context) return world_of(context):energy() end)
 add("world.momentum", "Momentum of all objects and robots.", {}, function(context) return world_of(context):momentum() end)
 add("world.hash", "Equal for worlds in the same state.", {}, function(context) return world_of(context):hash() end)
 
-add("world.average_contacts", "What presses on each of some bodies after the last step.",
+add("world.average_contacts", "Resultant contact force on each of the given bodies in the last step, and its center.",
     {{name = "links", type = "table", text = "addresses"}}, function(context, args)
       local links = arguments.find_all(context.session, "links", args.links)
       for i, thing in ipairs(links) do links[i] = arguments.find_body(context.session, thing) end
@@ -144,10 +144,10 @@ add("robot.mass_matrix", "Mass matrix of the DOFs.", {robot}, function(context, 
 add("robot.bias_forces", "Efforts that balance gravity, velocities and springs.", {robot},
     function(context, args) return find_robot(context, args.robot):bias_forces() end)
 add("robot.ik", "DOFs that bring a link to a pose.",
-    {robot, link, {name = "pose", type = "pose", text = "of the link in the world"}, {name = "options", type = "table", optional = true, text = "of hand:ik"}},
+    {robot, link, {name = "pose", type = "pose", text = "of the link in the world"}, {name = "options", type = "table", optional = true, text = "options of hand:ik"}},
     function(context, args) return find_robot(context, args.robot):ik(find(context, args.link), args.pose, args.options) end)
 
-add("session.info", "What the session holds.", {}, function(context)
+add("session.info", "Contents of the session: current hand and object, selection, path of the world.", {}, function(context)
   local session = context.session
   return {hand = session.hand, object = session.object, selection = session.selection, path = session.path, is_modified = session:is_modified(),
           commands_done = #session.history.done}

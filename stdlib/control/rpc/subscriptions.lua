@@ -86,7 +86,7 @@ subscriptions.methods = {
   {name = "subscribe", text = "Sends each event of a kind as a notification \"event\": in order, and none is lost.",
    parameters = {{name = "event", type = "string", text = "contact, contact_lost, limit (of the running world); changed, diagnostic, result (of the session)"}}, run = subscribe},
   {name = "subscribe_state", text = "Sends the state of the world as a notification \"snapshot\" whenever it has changed, as of world.state.",
-   parameters = {{name = "rate", type = "number", min = 0.01, max = 1000, default = 30, unit = "Hz", text = "at most so often"}}, run = subscribe_state},
+   parameters = {{name = "rate", type = "number", min = 0.01, max = 1000, default = 30, unit = "Hz", text = "maximum rate"}}, run = subscribe_state},
   {name = "unsubscribe", text = "Ends a subscription.", parameters = {{name = "subscription", type = "integer", text = "its number"}}, run = function(context, args)
     local list = context.client.subscriptions or {}
     local stop = list[args.subscription] or failure.raise("params", "subscription: there is no subscription %d", args.subscription)

@@ -60,7 +60,7 @@ end
 -- a row of the list; true: the phase is to be dropped
 local function draw_phase(view, ui, phase, i)
   local dropped = ui:button("x##phase" .. i)
-  ui:tooltip "Drop this phase"
+  ui:tooltip "Remove this phase"
   ui:same_line()
   ui:text(("%d  %s%s"):format(i, phase.kind, phase.kind == "approach" and " by" or phase.kind == "posture" and (" of %d DOFs"):format(#phase.dofs) or ""))
   if phase.kind ~= "approach" then return dropped end
@@ -74,7 +74,7 @@ local function draw_phase(view, ui, phase, i)
 end
 
 local function draw_phases(view, ui, state)
-  heading(ui, "Closing phases", "From the pregrasp to the grasp; contact stops each of them.")
+  heading(ui, "Closing phases", "From the pregrasp to the grasp; each phase stops at contact.")
   local dropped
   for i, phase in ipairs(state.phases) do
     if draw_phase(view, ui, phase, i) then dropped = i end
@@ -109,7 +109,7 @@ local function text_of_tug(view, state)
   if job.state ~= "done" then return job.state end
   local verdict = verdict_of(view, state)
   if not verdict then return "Something has moved since." end
-  if not verdict.settled.held then return "lost before the test, under the grip alone", orange end
+  if not verdict.settled.held then return "lost before the test, by the grip alone", orange end
   return ("held in %d of %d directions"):format(verdict.held, #verdict.directions), not verdict.survived and orange or {0, 0.5, 0.35}
 end
 

@@ -60,7 +60,7 @@ local function draw(ui, view)
   draw_sliders(ui, view, hand)
   local rigid, changed = ui:checkbox("rigid", view.rigid == true)
   if changed then view.rigid = rigid end
-  ui:tooltip "The posture is what the amplitudes describe; otherwise the rest of it is kept."
+  ui:tooltip "The posture consists of the amplitudes only; otherwise the part that they do not describe is kept."
   if ui:button "Go To Origin" then go_to_origin(view, hand) end
   ui:same_line()
   if ui:button "Set Origin" then set_origin(view, hand) end

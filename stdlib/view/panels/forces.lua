@@ -20,7 +20,7 @@ local function draw_options(view, ui, state)
   if value then state.max_force = value end
   ui:tooltip "Largest normal force of each contact; 0: no limit."
   state.torque_limits = ui:checkbox("torques of the motors", state.torque_limits == true)
-  ui:tooltip "Motors exert no more than they can."
+  ui:tooltip "The motors stay within their limits."
 end
 
 local function keep(view, state, kind, result)

@@ -48,7 +48,7 @@ local function draw_grasp(view, ui, source, state, number)
     local is_new = state.uploaded[number] ~= picture
     state.uploaded[number] = picture
     if ui:image(label, picture, {width = width, height = height, changed = is_new}) then apply(view, source, number) end
-    ui:tooltip "Puts the hand into this grasp."
+    ui:tooltip "Moves the hand to this grasp."
   end
   local name = ("%s of %s"):format(label, source.name)
   local epsilon = grasp.epsilon

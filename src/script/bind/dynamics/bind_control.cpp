@@ -113,7 +113,7 @@ Restores the state that was pushed last, and removes it from the stack.
 
 const Class world_control_class{.name = "world_control",
                                 .variable = "world",
-                                .doc = "Scripts that take part while a world runs.",
+                                .doc = "Functions of scripts that a running world calls.",
                                 .methods = control_methods,
                                 .parent = &world_settings_class};
 

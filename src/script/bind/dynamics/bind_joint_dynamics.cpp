@@ -123,7 +123,7 @@ springs and viscous friction of the joints, but not their dry friction.
 
 const Class joint_dynamics_class{.name = "joint_dynamics",
                                  .variable = "hand",
-                                 .doc = "Masses and forces as a robot's DOFs feel them.",
+                                 .doc = "Masses and forces in the coordinates of a robot's DOFs.",
                                  .fields = joint_dynamics_fields,
                                  .methods = joint_dynamics_methods,
                                  .parent = &motion_class};

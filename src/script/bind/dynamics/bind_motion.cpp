@@ -21,7 +21,7 @@ static int set_velocity(lua_State* L) {
   if (!lua_istable(L, 2) || lua_rawlen(L, 2) > 0)
     fail_expected({L, {}, ""}, "{linear = {x, y, z}, angular = {x, y, z}}", 2);
   if (body.world->dynamic_settings().welds.contains(body.id))
-    fail("{}: it is welded, and moves with what it is welded to", subject(L));
+    fail("{}: it is welded, and moves with the other body", subject(L));
   Table table(L, 2);
   const Twist now = body.world->twist(body.id);
   const Eigen::Vector3d linear = table.vec3("linear", now.linear),
@@ -145,7 +145,7 @@ Removes the weld: from then on it moves separately, starting at its present velo
 > flask:weld(hand.base)
 > flask:unweld()
 > flask.welded_to  --> nil
-> flask:unweld()  --> error: is welded to nothing)"},
+> flask:unweld()  --> error: is not welded)"},
 };
 
 const Class motion_class{.name = "motion",

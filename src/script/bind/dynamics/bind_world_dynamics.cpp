@@ -39,15 +39,14 @@ static void tell_trouble(lua_State* L, const World& world, const StepReport& bef
         pairs.empty() ? "overlapped for a time" : "overlap (" + describe(world, pairs) + ")";
     warn_once(L, &overlaps,
               fmt::format("{}: bodies {}; they are pushed apart slowly; world.report.overlaps "
-                          "counts them; what is deeper than {:.3g} m in each other stays there",
+                          "counts them; overlaps deeper than {:.3g} m remain",
                           subject(L), which, deepest_parted * world.contact_threshold()));
   }
   if (report.failures > before.failures)
-    warn_once(
-        L, &failures,
-        fmt::format("{}: some steps ask of contacts, limits and motors what cannot be at once; "
-                    "what comes nearest was done; world.report.failures counts them",
-                    subject(L)));
+    warn_once(L, &failures,
+              fmt::format("{}: in some steps contacts, limits and motors contradict each other, "
+                          "and the nearest solution was used; world.report.failures counts them",
+                          subject(L)));
 }
 
 // Parts of the world that ODE does not simulate; empty if there are none.
@@ -94,7 +93,8 @@ static void check_not_running(lua_State* L) {
   if (!push_hooks(L, self<WorldHandle>(L).world, false)) return;
   lua_getfield(L, -1, "runs");
   if (lua_toboolean(L, -1))
-    fail("{}: the world runs already: what is called in a run cannot step it", subject(L));
+    fail("{}: the world is already running: functions called during a run cannot step it",
+         subject(L));
   lua_pop(L, 2);
 }
 

@@ -55,7 +55,7 @@ static int measure(lua_State* L) {
   const std::string about = fmt::format("grasp of {} by {}", object->name, hand->name);
   if (measured.contacts_at_edges > 0 && first_time(L, &at_edges, about))
     log_warning(L, fmt::format("{}: {} of {} contacts are soft ones on corners or edges, whose "
-                               "patch is a guess; of later grasps contact.patch.at_edge tells",
+                               "patch is an estimate; for later grasps see contact.patch.at_edge",
                                about, measured.contacts_at_edges, measured.contacts.size()));
   return push_object(L, GraspHandle{hand.world, std::move(measured)});
 }

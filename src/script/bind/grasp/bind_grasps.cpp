@@ -44,7 +44,7 @@ static int list_grasps(lua_State* L) {
         path, {.add = add, .expect = [&](size_t n) { list.grasps.reserve(n); }}, format, reading);
     if (order.is_given() && has_names)
       reading.diagnostics.warn(Place(std::filesystem::path(path).filename().string()),
-                               "it names DOFs, for which dof_order is not used");
+                               "it names its DOFs, so dof_order is not used");
   }
   push_object(L, std::move(list));
   if (!format_read) return 1;

@@ -52,7 +52,7 @@ std::optional<std::vector<int>> read_coordinates(Table& options, const char* key
   const What what = options.what(key);
   options.each(key, "a list of coordinates", [&](int i, const What& item) {
     const int c = coordinate_of(read_string(what.L, i, item), what);
-    if (std::ranges::count(out, c)) fail("{}: {} is there twice", what.text(), coordinate_names[c]);
+    if (std::ranges::count(out, c)) fail("{}: {} is given twice", what.text(), coordinate_names[c]);
     out.push_back(c);
   });
   return out;

@@ -39,7 +39,7 @@ static void warn_of_boxes(lua_State* L, const Chart& chart, const Font& font) {
   for (const char32_t letter : boxes | std::views::take(max_named))
     names += fmt::format("{}U+{:04X}", names.empty() ? "" : ", ", static_cast<uint32_t>(letter));
   if (boxes.size() > max_named) names += fmt::format(" and {} more", boxes.size() - max_named);
-  log_warning(L, "chart: drawn as boxes are the letters " + names);
+  log_warning(L, "chart: these characters are drawn as boxes: " + names);
 }
 
 static int chart_draw(lua_State* L) {

@@ -31,7 +31,8 @@ static Eye read_eye(Table& options, const Eye& from) {
   const Eigen::Vector3d back = eye.eye - eye.target;
   // a default up vector along the view is replaced
   if (options.has("up") && !(eye.up.cross(back).norm() > 1e-9 * back.norm() * eye.up.norm()))
-    fail("{}: expected eye and target apart, and up not along the view", options.subject());
+    fail("{}: expected different eye and target, and up in another direction than the view",
+         options.subject());
   return eye;
 }
 

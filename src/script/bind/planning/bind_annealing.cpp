@@ -90,7 +90,7 @@ int make_annealing(lua_State* L) {
   lua_pop(L, 1);
   options.done();
   if (about && about->lineage() != world->lineage())
-    fail("{}: energy: it is about another world", options.subject());
+    fail("{}: energy: it belongs to another world", options.subject());
   const CallingState calling(L);
   return push_object(
       L, AnnealingHandle{world, std::make_shared<Annealing>(*world, who, std::move(space),

@@ -42,7 +42,7 @@ static void tell_sharp(lua_State* L, const ContactHandle& c, const SoftPatch& pa
   if (!patch.at_edge) return;
   const Eigen::Vector3d p = c.contact.X_WA * patch.center_A;
   log_warning(L, fmt::format("soft contact of {} on {} at ({:.6g}, {:.6g}, {:.6g}): there is a "
-                             "corner or an edge, whose patch is a guess",
+                             "corner or an edge, so its patch is an estimate",
                              c.world->body(c.contact.other).name,
                              c.world->body(c.contact.body).name, p.x(), p.y(), p.z()));
 }

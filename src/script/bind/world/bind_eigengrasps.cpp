@@ -227,8 +227,8 @@ static const Entry eigengrasps_operators[] = {
 const Class eigengrasps_class{.name = "eigengrasps",
                               .variable = "eigengrasps",
                               .doc =
-                                  "A few postures whose sums are a hand's: each posture is an "
-                                  "origin and an amplitude for each eigengrasp.",
+                                  "A basis of a hand's postures: each posture is an origin plus an "
+                                  "amplitude times a vector for each eigengrasp.",
                               .fields = eigengrasps_fields,
                               .methods = eigengrasps_methods,
                               .operators = eigengrasps_operators};

@@ -125,7 +125,8 @@ static int approach_object(lua_State* L) {
 static int place_approach(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const Pose* frame = to<Pose>(L, 2);
-  if (frame && given(L, 3)) fail("{}: direction: a pose has its own, +z", subject(L));
+  if (frame && given(L, 3))
+    fail("{}: direction: not allowed with a pose, whose direction is +z", subject(L));
   const Eigen::Vector3d target = frame ? frame->position : check_vec3(L, 2, "target");
   const Pose X_WA = frame ? *frame : approach_frame(target, check_vec3(L, 3, "direction"));
   const double standoff = given(L, 4) ? check_number(L, 4, "standoff") : 0;
@@ -292,7 +293,7 @@ Fixes the robot to a link of another one: to the named one, or the last of a cha
 > hand:mount_on(hand)  --> error: which it carries itself)"},
     {"dismount", method<[](const RobotHandle& x) { x.world->unmount(x.id); }>, R"(
 Detaches the robot from the one that carries it: it keeps its pose, without its adapter.
-> hand:dismount()  --> error: is carried by nobody)"},
+> hand:dismount()  --> error: is not carried by another robot)"},
 };
 
 static const Entry robot_operators[] = {
