@@ -20,9 +20,7 @@ enum class InertiaFault {
 /// For an inertia about the center of mass, per mass [m^2].
 InertiaFault inertia_fault(const Eigen::Matrix3d& per_mass);
 
-/// throws Error  "body 'cup': inertia: expected no moment above the sum of the others, got one of
-///               50
-///         times that sum"
+/// throws Error  "body 'cup': inertia: expected no moment above the sum of the others, got ..."
 void check_inertia(const Eigen::Matrix3d& per_mass, std::string_view subject);
 
 /// The same axes and the same largest moment; the others are raised equally until their sum equals

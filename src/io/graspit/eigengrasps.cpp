@@ -56,7 +56,7 @@ bool begins_block(std::string_view keyword) {
   return keyword == "eg" || keyword == "origin" || keyword == "norm";
 }
 
-/// Number of values with which all value lines begin.
+/// Number of values that all lines of vectors have at least.
 int given_dofs(const std::string& text) {
   LineReader lines("", text);
   std::optional<int> least;
@@ -89,7 +89,7 @@ class EgrReader {
 
   const ReadOptions& options_;
   Repairs repairs_;
-  int given_;  // number of values with which all blocks begin
+  int given_;  // number of values that all vectors have at least
   LineReader lines_;
   EigengraspSet set_;
   Places places_;

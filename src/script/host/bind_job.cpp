@@ -56,9 +56,10 @@ struct StartedJobs {
   }
 };
 
-constexpr size_t max_jobs = 1000;  // of one state that are queued, running or paused
+// maximum number of jobs of one state that are queued, running or paused
+constexpr size_t max_jobs = 1000;
 
-// of a list, or of a table that table.pack has made
+// number of items of a list, or of a table that table.pack has made
 lua_Integer count_arguments(lua_State* L, int list, const std::string& subject) {
   auto count = static_cast<lua_Integer>(lua_rawlen(L, list));
   lua_getfield(L, list, "n");
