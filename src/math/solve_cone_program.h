@@ -11,7 +11,7 @@ namespace clench {
 ///
 /// throws  Error if sizes do not match or a number is not finite
 /// source  Nesterov & Todd (1997); Mehrotra (1992); Goulart & Chen (2024), Clarabel: an
-///        interior-point solver for conic programs with quadratic objectives
+///         interior-point solver for conic programs with quadratic objectives
 ConeSolution solve(const ConeProgram& program);
 
 }  // namespace clench

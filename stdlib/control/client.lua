@@ -1,4 +1,4 @@
---- A client of a server: takes its lines as they arrive, and sends replies without waiting.
+--- A client of a server: receives its lines as they arrive, and sends replies without waiting.
 local class = require "clench.class"
 local loop = clench.loop
 
@@ -6,7 +6,7 @@ local Client = class "client"
 
 function Client:__tostring() return ("client %d, %s"):format(self.number, self.port.name) end
 
--- beyond so many bytes that wait to be handled, no more are read [bytes]
+-- no more is read while so much waits to be handled [bytes]
 local function max_waiting(self) return self.port.max_line + (1 << 16) end
 
 local function stop_reading(self)
@@ -32,7 +32,7 @@ local function start_reading(self)
 end
 
 --- Takes the next line.
----@return string? line  nil: none is there
+---@return string? line  nil: there is none
 ---@return string? reason  "too long"
 function Client:take_line()
   if self.is_closed then return nil end
@@ -41,7 +41,7 @@ function Client:take_line()
   return line, why
 end
 
---- Sends text. A client that does not read what it is sent is dropped.
+--- Sends text. A client that does not receive its replies is disconnected.
 function Client:send(text)
   if self.is_closed then return end
   local ok, why = self.port:send(text)

@@ -26,7 +26,7 @@ local function is_loopback(host) return host == "localhost" or host == "::1" or 
 
 local methods = {"GET", "POST", "HEAD", "PUT", "DELETE", "OPTIONS", "CONNECT", "PATCH", "TRACE"}
 
--- a page in a browser can make it send such lines to any port
+-- a web page can make a browser send such lines to any port
 local function looks_like_http(line)
   for _, method in ipairs(methods) do
     if line:find("^" .. method .. "%s") then return true end
@@ -49,7 +49,7 @@ local text_protocol = {answer = answer_text}
 
 function text_protocol.refuse_long(client) client:send(("Error: a line has more than %d bytes\n"):format(client.port.max_line)) end
 
--- the first line decides which protocol a client speaks
+-- the first line determines the protocol of a client
 local function protocol_of(client, line)
   client.protocol = client.protocol or line:find "^%s*[%[{]" and rpc or text_protocol
   return client.protocol
@@ -60,7 +60,7 @@ local function refuse_long(client)
   client:finish "a line was too long"
 end
 
--- one line of one client; false: there is none
+-- answers one line of one client; false: there is none
 local function serve_one(self, client)
   if client.is_closed or client.is_finishing then return false end
   local line, why = client:take_line()
@@ -74,7 +74,7 @@ local function serve_one(self, client)
   return line ~= nil
 end
 
--- the same; a fault of ours ends the connection of the client that has met it, not the server
+-- the same; an internal error ends the connection of the client that caused it, not the server
 local function serve_safely(self, client)
   local ok, some = pcall(serve_one, self, client)
   if ok then return some end
@@ -84,9 +84,9 @@ local function serve_safely(self, client)
   return true
 end
 
-local max_turn = 0.002  -- for which clients are served before others run, jobs and timers for instance [s]
+local max_turn = 0.002  -- time for which clients are served before other tasks run, such as jobs and timers [s]
 
--- Serves clients in the order in which they connected, a line of each in turn, until no lines are left.
+-- Serves clients in the order of their connections, one line of each in turn, until no lines are left.
 local function serve(self)
   local began, some = loop.time(), nil
   repeat
@@ -126,7 +126,7 @@ local function add(self, port)
   if self.on_connect then self.on_connect(client) end
 end
 
--- the one client of standard input and output: the program that has started us; when it is gone, the server ends
+-- the one client of standard input and output: the program that has started this one; when it disconnects, the server ends
 local function add_parent(self)
   self.name, self.max_clients = "standard input and output", 1
   local close = self.on_close
@@ -148,7 +148,7 @@ local function accept_clients(self)
     local ok, port, why = pcall(self.listener.accept, self.listener)
     if not ok then
       if is_stopped(port) then error(port, 0) end
-      loop.sleep(0.1)  -- no descriptor is left: until one is closed
+      loop.sleep(0.1)  -- out of descriptors: waits until one is closed
     elseif port then
       add(self, port)
     elseif why == "closed" then
@@ -171,7 +171,7 @@ Server.__close = function(self) self:close() end
 
 local function read_session(o)
   local world, session = o:raw "world", o:raw "session"
-  if world ~= nil and session ~= nil then o:fail "expected either a world or a session, got both" end
+  if world ~= nil and session ~= nil then o:fail "expected either a world the controlled world; or a session, got both" end
   if world == nil and session == nil then o:fail "world: expected a world, got nothing" end
   if world ~= nil then
     if clench.type(world) ~= "world" then o:expected("world", "a world", world) end
@@ -222,23 +222,23 @@ local function read_options(options)
   return server, where
 end
 
---- A server through which other programs command a world, as long as the loop runs: by JSON-RPC 2.0, and on loopback by the text protocol
---- of GraspIt!, too. The first byte of a client decides.
+--- A server by which other programs control a world while the loop runs: by JSON-RPC 2.0, and on loopback also by the text protocol
+--- of GraspIt!. The first byte from a client selects the protocol.
 ---@param options table
----@option world? world  or a session
----@option session? session  whose commands clients run
+---@option world? world  the controlled world; or a session
+---@option session? session  the session whose commands clients run
 ---@option port? integer [0 to 65535] = 4765  0: the system chooses one, the server's field `port`
 ---@option host? string = "127.0.0.1"  address on which it listens
 ---@option path? string  of a Unix socket, instead of host and port
 ---@option stdio? boolean = false  true: JSON-RPC over standard input and output with the program that has started this one, without a token
----@option mcp? "read"|"control"  over standard input and output the Model Context Protocol instead; "read": tools that change nothing, "control": all
----@option token? string|boolean  the secret of JSON-RPC clients; one is made by default, the server's field `token`. false, on loopback: none
+---@option mcp? "read"|"control"  the Model Context Protocol over standard input and output, instead; "read": only tools that change nothing; "control": all
+---@option token? string|boolean  the secret of JSON-RPC clients; by default it is generated, and is the server's field `token`. false, only on loopback: none
 ---@option folder? string  below which requests may read and write files; none by default
----@option max_clients? integer [1 to 1000] = 64  connected at one time
+---@option max_clients? integer [1 to 1000] = 64  maximum number of connected clients
 ---@option max_line? integer [1000 to 268435456, bytes] = 1048576  longest request
----@option max_queue? integer [1000 to 1073741824, bytes] = 4194304  replies that a client may leave unread before it is dropped
+---@option max_queue? integer [1000 to 1073741824, bytes] = 4194304  maximum size of replies that a client has not received, beyond which it is disconnected
 ---@option on_connect? function  called with each new client
----@option on_close? function  called with each client that has gone; its field `reason` says why
+---@option on_close? function  called with each client that has disconnected; its field `reason` states why
 ---@return server server # `port`, `token`, `session`, `close()`
 --- > server = clench.control.server {world = world, port = 0}
 --- > client = clench.port.connect("127.0.0.1", server.port)

@@ -14,7 +14,7 @@ function Flock:__tostring() return ("Flock of %d birds at %s"):format(self.birds
 
 local function address(bird) return string.char(0xF0 + bird) end
 
--- words of a record: the high bit of its first byte is set, and of no other; nil if it is damaged
+-- words of a record, of which only the first byte has its high bit set; nil if it is damaged
 local function parse(record)
   local words = {}
   for i = 1, #record, 2 do
@@ -26,7 +26,7 @@ local function parse(record)
   return words
 end
 
--- a record of a bird; bytes before its beginning are passed over
+-- a record of a bird; bytes before its beginning are skipped
 local function request(self, bird)
   local size = 2 * self.mode.words
   for _ = 1, self.attempts do
@@ -53,7 +53,7 @@ end
 
 local function position_of(words) return {words[1] * range / 32768, words[2] * range / 32768, words[3] * range / 32768} end
 
--- words 4 to 12 are the rows of the rotation; the 6 lowest bits of each mean nothing
+-- words 4 to 12 are the rows of the rotation; the 6 lowest bits of each have no meaning
 local function pose_of_matrix(words)
   local rows = {}
   for r = 1, 3 do
@@ -112,14 +112,14 @@ local function configure(self)
   for bird = 1, self.birds do write(self, address(bird) .. self.mode.letter, "mode") end
 end
 
---- A Flock of Birds: 1 to 3 trackers on one bus.
+--- Driver of a Flock of Birds: 1 to 3 trackers on one bus.
 ---@param options table
 ---@option port string|port  path of its serial line, or a port
 ---@option birds? integer [1 to 3] = 1
 ---@option mode? "matrix"|"angles" = "matrix"  records of rotation matrices or of angles
 ---@option baud? integer [bit/s, 1 to 10000000] = 115200
 ---@option timeout? number [s, > 0, <= 3600] = 0.2  for a record
----@option attempts? integer [1 to 1000] = 20  repetitions of what is not answered correctly
+---@option attempts? integer [1 to 1000] = 20  maximum number of attempts to get a correct record
 ---@option readings? integer [1 to 99] = 1  records of which each word is the median: no checksum protects them
 ---@return flock flock # `read`, `close`
 --- > simulated = clench.devices.simulated.flock {poses = {clench.pose {xyz = {0.3, 0.1, 0.2}}}}

@@ -15,7 +15,7 @@ local function check(calibration)
   return count
 end
 
---- Writes a calibration as GraspIt! does, with all digits: `clench.files.glove_calibration` reads the same numbers.
+--- Writes a calibration in GraspIt!'s format, with all digits: `clench.files.glove_calibration` reads the same numbers.
 ---@param path string  file to write
 ---@param calibration table  {slopes, intercepts}, as of clench.devices.calibrate
 --- > path = os.tmpname()

@@ -1,11 +1,11 @@
---- Synthetic input of a view, as a user's mouse and keyboard would give it. Each function returns when all of it has been handled.
+--- Synthetic input of a view, like that of a user's mouse and keyboard. Each function returns when all of its input has been handled.
 local context = require "clench.view.context"
 local keys = require "clench.view.keys"
 local raise = require "clench.raise"
 local suggest = require "clench.suggest"
 local input = {}
 
--- draws frames until no input waits, and one more in which widgets have settled
+-- draws frames until no input waits, and one more in which widgets settle
 local function settle(view)
   local count = 0
   repeat

@@ -10,12 +10,12 @@ local selection = require "clench.view.selection"
 local layout = {}
 
 local panel_width, bottom_height, bar_height = 264, 190, 36  -- [pixels]
-local tall_share = 0.72  -- of the height of its column
-local user_panels = {}  -- that scripts have added, by name and in order
+local tall_share = 0.72  -- fraction of the height of its column
+local user_panels = {}  -- panels that scripts have added, by name and in order
 
 local own_panels = {"tree", "quality", "inspector", "jobs", "eigengrasps", "wrench_space", "friction", "virtual_contacts", "forces", "author", "display", "console", "time_line", "history", "gallery", "plots"}
 
---- The panels of a view: its own, and those of the user.
+--- The panels of a view: built-in ones, and those of the user.
 function layout.panels()
   local list = {}
   for i, name in ipairs(own_panels) do list[i] = require("clench.view.panels." .. name) end
@@ -94,7 +94,7 @@ local function draw_column(view, ui, place, x, y, width, height)
   end
   local count = #rows + (#tabs > 0 and 1 or 0)
   local each = count > 0 and height / count or 0
-  -- a tall panel leaves the others less
+  -- a tall panel reduces the space of the others
   local shared = height - #rows * each
   if #tabs > 0 and #rows > 0 and front_of(view, place, tabs).tall then
     shared = math.max(shared, height * tall_share)

@@ -1,10 +1,10 @@
---- Body properties of all that is selected: material, collisions, transparency, mass. Each change is one command for all of it.
+--- Body properties of the selection: material, collisions, transparency, mass. Each change is one command for the complete selection.
 local edit = require "clench.view.edit"
 local properties = {}
 
 local gray = {0.5, 0.5, 0.5}
 
--- bodies of the selection; of a robot, all its links
+-- bodies of the selection; for a robot, all its links
 local function bodies_of(selection)
   local list = {}
   for _, thing in ipairs(selection) do
@@ -26,7 +26,7 @@ local function draw_material(view, ui, bodies)
   if changed then view:run("body.material", {material = names[chosen]}) end
 end
 
--- do the selected bodies collide? With two of them: with each other
+-- do the selected bodies collide? If two are selected: with each other
 local function collide(world, selection)
   if #selection == 2 then return world:may_collide(selection[1], selection[2]) end
   return edit.common(selection, function(thing) return world:may_collide(thing) end) ~= false

@@ -308,7 +308,7 @@ test("Robotiq: three fingers move together or each for itself, in all modes, and
   gripper:activate()
   t.equal(gripper:read().mode, "basic")
   t.fails(function() gripper:move {0.1, 0.2} end, "robotiq_3f:move: expected one number, one per finger, or those and the scissor's")
-  t.fails(function() gripper:move(0.5, 2) end, "robotiq_3f:move: speed: expected a part from 0 to 1, got 2")
+  t.fails(function() gripper:move(0.5, 2) end, "robotiq_3f:move: speed: expected a fraction from 0 to 1, got 2")
   t.fails(function() gripper:move "x" end, "closing: expected 0 to 1 (1: closed), got 'x'")
   t.fails(function() gripper:set_mode "fist" end, "robotiq_3f:set_mode: expected basic, pinch, wide or scissor, got 'fist'")
   t.fails(function() simulated.robotiq_3f {objects = {300}} end, "objects[1] must be a number from 0 to 255, got 300")

@@ -10,7 +10,7 @@ namespace clench {
 /// is proved that there are no such impulses, as for two opposite limits that both require more.
 ///
 /// source  Acary, Cadoux, Lemaréchal & Malick (2011), A formulation of the linear discrete Coulomb
-///        friction problem via convex optimization
+///         friction problem via convex optimization
 bool may_contradict(const ScaledFriction& problem);
 
 }  // namespace clench

@@ -7,7 +7,7 @@ local messages = {}
 local max_batch = 1000  -- requests
 local null = clench.json.null
 
---- Result of a request that is not answered, as its client has cancelled it.
+--- Result of a request that is not answered, because its client has cancelled it.
 messages.no_answer = {}
 
 -- is it [...], and not {...}?
@@ -72,14 +72,14 @@ local function has_long(message, is_long)
   return false
 end
 
--- the message of a line; what is not UTF-8 could not be sent back, as the id of a response for instance
+-- the message of a line; text that is not UTF-8 could not be sent back, for instance as the id of a response
 local function decoded(line)
   local valid, at = utf8.len(line)
   if not valid then failure.raise("parse", "byte %d is not UTF-8", at) end
   return clench.json.decode(line)
 end
 
---- Answers a line. Lines with long requests are answered in a task of their own, while others are served.
+--- Answers a line. Lines with long requests are answered in separate tasks, while other lines are served.
 ---@param line string
 ---@param reply fun(text: string?)  sends the answer, if there is one
 ---@param call fun(method: string, params: table, id: any): any  result of a request, as plain data
@@ -93,7 +93,7 @@ function messages.serve(line, reply, call, is_long)
   end
   if not has_long(message, is_long) then return reply(respond_to_all(message, call, line)) end
   clench.loop.spawn(function() reply(respond_to_all(message, call, line)) end)
-  coroutine.yield()  -- it begins before the next request of anyone is served
+  coroutine.yield()  -- it begins before the next request of any client is served
 end
 
 --- Sends a notification.

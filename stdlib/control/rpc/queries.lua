@@ -1,4 +1,4 @@
---- Read-only methods of JSON-RPC: what a world and its bodies and robots are, by address.
+--- Read-only methods of JSON-RPC: fields and queries of a world and of its bodies and robots, by address.
 local arguments = require "clench.session.arguments"
 local described = require "clench.described"
 local failure = require "clench.control.rpc.failure"
@@ -6,7 +6,7 @@ local queries = {}
 
 local function world_of(context) return context.session.world or failure.raise("failed", "no world is open") end
 
--- a body or robot of an address; nil stays nil
+-- the body or robot with an address; nil for nil
 local function find(context, address) return address ~= nil and arguments.find(context.session, address) or nil end
 
 local function find_robot(context, address) return arguments.find_robot(context.session, address) end
@@ -18,19 +18,19 @@ local link = {name = "link", type = "body", text = "address of a link"}
 
 local function add(name, text, parameters, run) queries[#queries + 1] = {name = name, text = text, parameters = parameters, run = run} end
 
--- the thing of an address: "" or nothing is the world
+-- the body or robot with an address; the world for "" or nil
 local function thing_of(context, address)
   if address == nil or address == "" then return world_of(context) end
   return find(context, address)
 end
 
--- a JSON object where a list is expected
+-- rejects a JSON object if a list is expected
 local function check_list(name, value)
   if type(value) ~= "table" or #value == 0 and next(value) ~= nil then failure.raise("params", "%s: expected a list, got %s", name, described(value)) end
 end
 
 local function field_of(thing, field)
-  local value = thing[field]  -- an error names what is near
+  local value = thing[field]  -- an error suggests similar names
   if type(value) == "function" then failure.raise("params", "%s.%s is a method, not a field", clench.type(thing), field) end
   return value
 end
@@ -68,7 +68,7 @@ local function velocity_of(body)
   return {linear = velocity.linear, angular = velocity.angular}
 end
 
---- The state of a world: time, and what moves in it.
+--- The state of a world: its time, and the state of everything that can move.
 function queries.state(world)
   local bodies, robots = {}, {}
   for i, body in ipairs(world.objects) do bodies[i] = {body = body, pose = body.pose, velocity = velocity_of(body)} end
@@ -85,14 +85,14 @@ add("world.list", "Addresses of bodies and robots.", {}, function(context)
   return {robots = world.robots, objects = world.objects, obstacles = world.obstacles, bodies = world.bodies}
 end)
 
--- two things, of which either may be left out
+-- two bodies or robots, either of which may be absent
 local function pair_of(context, args)
   local a, b = find(context, args.a), find(context, args.b)
   if a == nil then return b end
   return a, b
 end
 
--- every contact once: of the two bodies that list it, the first in the world
+-- every contact once: by the first of the two bodies that list it
 local function all_contacts(world)
   local out, seen = {}, {}
   for _, body in ipairs(world.bodies) do

@@ -1,4 +1,4 @@
---- What JSON-RPC clients subscribe to: events, ordered and none lost, and snapshots, of which only the latest counts.
+--- Subscriptions of JSON-RPC clients: to events, in order and without loss, and to snapshots, of which only the latest is sent.
 local failure = require "clench.control.rpc.failure"
 local queries = require "clench.control.rpc.queries"
 local values = require "clench.control.rpc.values"
@@ -17,7 +17,7 @@ local function new_number(context)
   return client.subscription_count
 end
 
--- listens to a world, and to the one that takes its place
+-- listens to a world, and to the one that replaces it
 local function follow_world(session, event, f)
   local handle, world
   local function attach()
@@ -47,7 +47,7 @@ local function subscribe(context, args)
   return {subscription = number}
 end
 
--- the text of a snapshot, made once for all clients that ask for the same at the same time
+-- the text of a snapshot, created once for all clients with the same request at the same time
 local function snapshot_text(server)
   local world = server.session.world
   if not world then return "null" end
@@ -64,7 +64,7 @@ local function subscribe_state(context, args)
   local number = new_number(context)
   local client, server, last = context.client, context.server, nil
   local timer = clench.loop.every(1 / args.rate, function()
-    if client.port.queued > 0 then return end  -- a later one takes its place
+    if client.port.queued > 0 then return end  -- a later one replaces it
     local text = snapshot_text(server)
     if text == last then return end
     last = text
@@ -76,7 +76,7 @@ end
 
 local subscriptions = {}
 
---- Ends all subscriptions of a client that has gone.
+--- Ends all subscriptions of a client that has disconnected.
 function subscriptions.drop(client)
   for _, stop in pairs(client.subscriptions or {}) do stop() end
   client.subscriptions = {}

@@ -14,7 +14,7 @@ local function set(view, hand, amplitudes, fixed, rigid)
   for i = 1, #amplitudes do
     if fixed[i] then numbers[#numbers + 1] = i end
   end
-  -- with a fixed amplitude, only the posture of the amplitudes counts
+  -- with a fixed amplitude, the posture consists of the amplitudes only
   hand:set_amplitudes(amplitudes, {keep = not (rigid or #numbers > 0), fixed = #numbers > 0 and numbers or nil})
   view.session:emit("changed", {gesture = true})
 end

@@ -1,4 +1,4 @@
---- Force optimization and stability analysis of the current grasp, with what yields where the load cannot be held.
+--- Force optimization and stability analysis of the current grasp; if the load cannot be held, names what yields.
 local edit = require "clench.view.edit"
 local gray, orange = {0.5, 0.5, 0.5}, {0.84, 0.37, 0}
 
@@ -38,7 +38,7 @@ local function draw_buttons(view, ui, state)
   if ui:button "Stability" then keep(view, state, "stability", view:run("grasp.stability", {max_force = limit_of(state)})) end
 end
 
--- what gives way, and at which part of the load
+-- what yields, and at which fraction of the load
 local function draw_certificate(ui, certificate)
   if not certificate then return end
   local what = certificate.contact and "the contact of " .. (certificate.contact.link or certificate.contact.other).name

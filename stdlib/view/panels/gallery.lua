@@ -1,11 +1,11 @@
---- Grasps of planners and of files, with small pictures; a click puts the hand there, and two can be compared.
+--- Grasps of planners and of files, with small pictures; a click moves the hand to a grasp, and two grasps can be compared.
 local compare = require "clench.view.compare"
 local dialog = require "clench.view.dialog"
 
-local width, height, most = 112, 84, 64  -- of a picture [pixels], and their number
+local width, height, most = 112, 84, 64  -- size of a picture [pixels], and maximum number of pictures
 local gray = {0.5, 0.5, 0.5}
 
--- lists of grasps: of the jobs that have found some, then of files
+-- lists of grasps: of jobs that have found some, then of files
 local function sources_of(session)
   local sources = {}
   for i, job in ipairs(session.jobs) do
