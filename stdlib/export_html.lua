@@ -51,7 +51,7 @@ local function frames_of(world, grasps, recording)
 end
 
 --- Writes a world as a page of HTML, which shows it in 3-D in a browser without a server.
----@param world world  what the page shows
+---@param world world  world to be shown
 ---@param path string  its name ends in .html
 ---@param options? {title?: string, grasps?: table, recording?: table, max_size?: number, three?: string[]}
 ---@return integer bytes
