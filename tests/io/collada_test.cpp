@@ -158,7 +158,7 @@ TEST_CASE("what is wrong in a COLLADA file is told by line") {
   refused("offset=\"0\"", "offset=\"-1\"",
           "input: offset: expected a whole number from 0 to 64, got '-1'");
   refused("<p>0 0 ", "<p>8 0 ", "p: expected a vertex from 0 to 7, got 8");
-  refused("<p>0 0 ", "<p>0 0 0 ", "p: expected 2 numbers a corner, got 73 in all");
+  refused("<p>0 0 ", "<p>0 0 0 ", "p: expected 2 numbers per corner, got 73 in total");
   refused("<p>0 0 ", "<p>0 0 0 0 ", "triangles: expected 3 corners of a face, got 1");
   refused("1 0.5 0 1", "1 0.5", "color: expected three or four numbers, got 2");
   CHECK_THROWS_WITH_AS(

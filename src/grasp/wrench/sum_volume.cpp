@@ -17,9 +17,9 @@ namespace {
 using CellMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 using CellVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 
-// Points count as rising above a rotating plane only if by more than this times the sum of their
-// coordinates on the cell: rounding moves points that lie in the axis of rotation, as many do if
-// summands have directions in common.
+// A point counts as rising above a rotating plane only if it rises by more than this times the sum
+// of its coordinates on the cell: points in the axis of rotation move by rounding, and many points
+// lie there if summands have directions in common.
 constexpr double rounding_rise = 1e-13;
 constexpr double repeated = 1e-9;  // columns nearer than this are merged
 constexpr double flat = 1e-10;     // a sum this much thinner than wide has no volume

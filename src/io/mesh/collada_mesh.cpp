@@ -134,7 +134,7 @@ Points MeshReader::points(const XmlElement& input) {
 std::vector<FaceCorner> MeshReader::corners(const XmlElement& p) {
   const auto numbers = read_numbers(p, work_);
   if (numbers.size() % static_cast<size_t>(stride_) != 0)
-    p.fail("p: expected {} numbers a corner, got {} in all", stride_, numbers.size());
+    p.fail("p: expected {} numbers per corner, got {} in total", stride_, numbers.size());
   const auto number = [&](size_t i, size_t count, const char* what) {
     const double v = numbers[i];
     if (!(v >= 0 && v < static_cast<double>(count)) || v != std::floor(v))

@@ -221,7 +221,7 @@ if the body has one color.
 > flask.triangle_colors  --> nil)"},
     {"textures", guarded<get_textures>, R"(
 Images on the triangles of `visual_mesh`, as its file maps them; nil if it has none. `images` is a list of `{jpeg =, width =, height =,
-wrap_u =, wrap_v =, tint =}`: the bytes of a JPEG file of at most 1024 pixels a side, how the image continues beyond its edges ("repeat", "mirror" or
+wrap_u =, wrap_v =, tint =}`: the bytes of a JPEG file of at most 1024 pixels per side, how the image continues beyond its edges ("repeat", "mirror" or
 "clamp"), and the factor of its colors. `numbers` and `places` are bytes for `string.unpack`: for each triangle the number of its image,
 `"<I2"`, 0 for none, and u and v of its three corners, `"<ffffff"`, v down from the top. Setting `color` removes the textures.
 @type table?
