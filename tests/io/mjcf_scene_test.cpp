@@ -231,7 +231,7 @@ TEST_CASE("keyframes become named states") {
   CHECK(told.world.keyframes[1].name == "2");
   CHECK(told.world.keyframes[1].robots[1].dofs == std::vector{2.0});
   CHECK(told.warned("key: qpos: joint 'hinge' is at 7, outside [0, 2]; moved to the limit"));
-  CHECK(told.warned("of <key>, here and further on, not used: ctrl"));
+  CHECK(told.warned("attributes of <key> that are not used, here and further on: ctrl"));
 }
 
 TEST_CASE("in keyframes balls are three turns and followers follow") {
@@ -394,7 +394,7 @@ TEST_CASE("what a scene holds and a world does not is told, one warning a kind o
                        "<option wind='1 0 0'/><sensor/><visual/>");
   CHECK(told.warned("<light> is not used, nor is another one"));
   CHECK(told.warned("<sensor> is not used"));
-  CHECK(told.warned("of <option>, here and further on, not used: wind"));
+  CHECK(told.warned("attributes of <option> that are not used, here and further on: wind"));
   CHECK(told.warned("geom: no obstacle is made of a hfield here; it is not used"));
   CHECK(ToldWorld("<body name='b'><geom type='plane' size='1 1 1'/><geom size='1'/></body>")
             .warned("geom: a plane is no part of a body here; it is not used"));
@@ -449,7 +449,7 @@ TEST_CASE("settings of MuJoCo's solver are reported unless they are those that a
   const std::string stiff = "margin='0.0002' solref='0.008 1' solimp='0.95 0.99 0.0001'";
   const auto ours = told("0.002", stiff, "cone='elliptic' impratio='10' integrator='implicit'");
   CHECK(ours.warnings.size() == 1);
-  CHECK(ours.warned("of <size>, here and further on, not used: nuserdata"));
+  CHECK(ours.warned("attributes of <size> that are not used, here and further on: nuserdata"));
   CHECK(ours.world.contact_threshold == 0.0002);
   // stiffness for another time step
   const auto other = told("0.001", stiff, "cone='pyramidal' impratio='1' integrator='RK4'");

@@ -163,7 +163,7 @@ double joint_deviation(MeasuredGrasp& g) {
 // in the object frame; no axis if two moments differ by less than the faceting of a round body
 // causes
 std::optional<Eigen::Vector3d> principal_axis(const Body& body) {
-  constexpr double alike = 1e-3;  // of the largest moment
+  constexpr double alike = 1e-3;  // relative to the largest moment
   const auto [moments, axes] = eigensystem(body.inertia_per_mass);
   const double below = moments[1] - moments[0], above = moments[2] - moments[1];
   if (!(std::max(below, above) > alike * moments[2])) return {};

@@ -94,7 +94,7 @@ class EgrReader {
   EigengraspSet set_;
   Places places_;
   int junk_lines_ = 0;
-  Diagnostic junk_;  // the first one, as reported
+  Diagnostic junk_;  // first of these lines; it is reported with their number
 };
 
 EigengraspSet EgrReader::read() {

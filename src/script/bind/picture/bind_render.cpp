@@ -124,7 +124,7 @@ Eye read_camera(lua_State* L, Table& options, const Scene& scene, const RenderOp
   return eye;
 }
 
-// reads size, quality and the camera, in a separate table or not, which must be all remaining
+// reads size, quality and the camera, given as a table or as single options; rejects all other
 // options
 View read_view(lua_State* L, Table& options, const Scene& scene) {
   View view{read_rendering(options), {}};
