@@ -135,7 +135,7 @@ TEST_CASE("what the root does not hold is taken from its other generation, with 
     CHECK(warnings.list ==
           std::vector<std::string>{"w.xml:2: models/box.xml is not below the root; " +
                                    (folder.path() / "Lib-old/models/box.iv").generic_string() +
-                                   " is taken"});
+                                   " is used instead"});
   }
 }
 

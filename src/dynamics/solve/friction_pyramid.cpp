@@ -50,7 +50,7 @@ struct Complementarity {
   VectorXd start;
   MatrixXd coupling;  // of M, in addition to rows^T S rows
   VectorXd offset;    // of q, in addition to rows^T (S start + q)
-  VectorXd units;     // unit of a w in velocities of the problem
+  VectorXd units;     // velocity of the problem that is 1 in w
 };
 
 int count_unknowns(const ScaledFriction& problem, const std::vector<MatrixXd>& edges) {

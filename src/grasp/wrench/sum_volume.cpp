@@ -94,13 +94,14 @@ struct NextPoint {
   double way = std::numeric_limits<double>::infinity();
 };
 
-// The first point to reach the height of its summand's corner over a rotating plane.
+// A rotating plane, and the points above it.
 struct TurningPlane {
   Eigen::RowVectorXd level;  // of all points above the plane
   Eigen::RowVectorXd rise;   // their change as it rotates
   Eigen::RowVectorXd least;  // smallest rise that is not rounding
 };
 
+// The first point whose height over the plane reaches that of its summand's corner.
 NextPoint next_point(const LiftedPoints& points, const Cell& cell, const std::vector<int>& corners,
                      const TurningPlane& plane) {
   const auto& [level, rise, least] = plane;
@@ -173,7 +174,7 @@ double invert(CellMatrix& m) {
       m.row(i) -= factor * m.row(k), out.row(i) -= factor * out.row(k);
     }
   }
-  // products of the rows, to the last digit
+  // a step of Newton's method removes the rounding errors of the elimination
   m = out * (2 * CellMatrix::Identity(d, d) - original * out);
   return std::abs(determinant);
 }

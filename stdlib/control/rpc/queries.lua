@@ -104,7 +104,7 @@ local function all_contacts(world)
   return out
 end
 
-add("world.contacts", "Contacts between two things, of one, or of all.", {a, b}, function(context, args)
+add("world.contacts", "Contacts between two bodies or robots, of one, or of all.", {a, b}, function(context, args)
   local world = world_of(context)
   if args.a == nil and args.b == nil then return all_contacts(world) end
   return world:contacts(pair_of(context, args))
