@@ -244,7 +244,8 @@ TEST_CASE("what cannot be written is refused in a sentence") {
   const TemporaryFolder folder;
   const WorldSpec world = read_world(library / "claw.wld");
   CHECK_THROWS_WITH_AS(write_world(world, folder.path() / "w.txt"),
-                       "w.txt: expected a world to .xml, .mjcf, .wld or .lua, got '.txt'", Error);
+                       "w.txt: expected the extension .xml, .mjcf, .wld or .lua, got '.txt'",
+                       Error);
   CHECK_THROWS_WITH_AS(write_world(world, "no/such/w.wld"),
                        "no/such/w.wld: the file cannot be written: no such folder: no/such", Error);
   CHECK_THROWS_WITH_AS(write_world(world, folder.path() / "w.wld", {.root = "no/such"}),

@@ -293,7 +293,7 @@ is kept until the new one has been read back; a warning names everything that th
 > clench.load(path .. ".lua"):hash() == world:hash()  --> true
 > os.remove(path)
 > os.remove(path .. ".lua")
-> world:save "world.txt"  --> error: expected a world to .xml, .mjcf, .wld or .lua, got '.txt'
+> world:save "world.txt"  --> error: expected the extension .xml, .mjcf, .wld or .lua, got '.txt'
 > world:save("world.xml", {format = "usd"})  --> error: unknown format 'usd')"},
     {"hash", method<[](const WorldHandle& x) { return fmt::format("{:016x}", x.world->hash()); }>,
      R"(
