@@ -14,6 +14,7 @@
 #include "clench/geometry/query/queries.h"
 #include "clench/grasp/force/contact_forces.h"
 #include "clench/grasp/force/equilibrium.h"
+#include "clench/grasp/force/preload.h"
 #include "clench/grasp/force/resistance.h"
 #include "clench/grasp/measure/measures.h"
 #include "clench/grasp/measure/robustness.h"

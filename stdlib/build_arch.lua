@@ -1,27 +1,17 @@
 --- An arch of stones.
 local raise = require "clench.raise"
 local described = require "clench.described"
+local read_options = require "clench.options"
 
 local stone = {0.72, 0.69, 0.64}  -- color
-local defaults = {inner_radius = 0.9, outer_radius = 1.1, thickness = 0.2, blocks = 9, supports = true, density = 2000}
 
 local function read(given)
-  if given ~= nil and type(given) ~= "table" then raise("clench.build_arch: expected a table of options, got " .. described(given)) end
-  for key in pairs(given or {}) do
-    if defaults[key] == nil then raise(("clench.build_arch: unknown key '%s'"):format(tostring(key))) end
-  end
-  local o = {}
-  for key, default in pairs(defaults) do
-    local value = given and given[key]
-    if value == nil then value = default end
-    if type(value) ~= type(default) then raise(("clench.build_arch: %s: expected a %s, got %s"):format(key, type(default), described(value))) end
-    if type(default) == "number" and not (value > 0 and value < math.huge) then raise(("clench.build_arch: %s must be positive, got %.10g"):format(key, value)) end
-    o[key] = value
-  end
+  local options, o = read_options("clench.build_arch", given or {}), {}
+  for _, name in ipairs {"inner_radius", "outer_radius", "thickness", "blocks", "supports", "density"} do o[name] = options:get(name) end
+  options:done()
   if o.outer_radius <= o.inner_radius then
-    raise(("clench.build_arch: outer_radius must exceed inner_radius, %.6g, got %.6g"):format(o.inner_radius, o.outer_radius))
+    options:fail("outer_radius must exceed inner_radius, %.6g, got %.6g", o.inner_radius, o.outer_radius)
   end
-  if o.blocks % 1 ~= 0 or o.blocks < 3 or o.blocks > 200 then raise(("clench.build_arch: blocks: expected an integer from 3 to 200, got %.10g"):format(o.blocks)) end
   return o
 end
 
@@ -63,8 +53,15 @@ end
 --- Adds a round arch of stone wedges that stand on each other without mortar, in the xz plane above z = 0, and two supports below it, which are
 --- obstacles: dynamics show whether the arch stands on them.
 ---@param world world  to which it is added
----@param options? {inner_radius?: number, outer_radius?: number, thickness?: number, blocks?: integer, supports?: boolean, density?: number}  radii 0.9 and 1.1, thickness along y 0.2 [m]; blocks: 9, each spans pi / blocks; supports: true, 0.05 m high; density: 2000 [kg/m^3]
+---@param options? table  sizes and material
+---@option inner_radius? number [m, > 0] = 0.9  of the opening
+---@option outer_radius? number [m, > 0] = 1.1  of the back of the stones
+---@option thickness? number [m, > 0] = 0.2  along y
+---@option blocks? integer [3 to 200] = 9  each spans pi / blocks
+---@option supports? boolean = true  true: two supports, 0.05 m high
+---@option density? number [kg/m^3, > 0] = 2000  of the blocks
 ---@return body[] parts  blocks from +x to -x, then the supports
+---@effect edits
 --- > #clench.build_arch(clench.world(), {blocks = 5})  --> 7
 --- > clench.build_arch(clench.world(), {outer_radius = 0.5})  --> error: outer_radius must exceed inner_radius, 0.9, got 0.5
 return function(world, options)

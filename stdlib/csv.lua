@@ -59,6 +59,7 @@ end
 ---@param options? table  format of the file
 ---@option columns? string[]  names in the order of the columns; all names, sorted, by default
 ---@option separator? string = ","  separator of cells: ",", ";" or a tab
+---@effect files
 --- > clench.csv.write("build/table.csv", {{object = "mug", epsilon = 0.25}, {object = "flask", note = "7"}})
 --- > rows = clench.csv.read "build/table.csv"
 --- > table.concat(rows.columns, " ")  --> epsilon note object
@@ -91,6 +92,7 @@ end
 ---@option separator? string = ","  separator of cells: ",", ";" or a tab
 ---@option confine? string  folder that must contain the file, directly or in subfolders
 ---@return table[] rows  rows of names and values; the field `columns` has the names in order
+---@effect files
 --- > clench.csv.read "no/such.csv"  --> error: no/such.csv
 function csv.read(path, options)
   if type(path) ~= "string" then raise("csv.read: path: expected a name, got " .. described(path)) end

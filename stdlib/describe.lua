@@ -31,9 +31,10 @@ end
 local function describe(entry)
   local parsed = descriptions.parse(entry.doc)
   parsed.name, parsed.kind, parsed.unused = entry.name, entry.kind, nil
+  -- getters and operators change nothing
+  if entry.kind == "field" or entry.kind == "operator" then parsed.effect = parsed.effect or "reads" end
   if entry.kind == "field" then
     parsed.settable = entry.settable == true
-    parsed.effect = parsed.effect or "reads"
     for key, value in pairs(parsed.type or {}) do
       -- the text of a field is its doc, followed by the prose of its @type line
       if key ~= "text" then parsed[key] = value elseif value ~= "" then parsed.text = parsed.text .. " " .. value end
@@ -55,14 +56,16 @@ local function fail_unknown(x, list)
 end
 
 --- Describes a function, method or field as data: `name`, `kind` ("function", "method", "field" or "operator"), `text`, `parameters`, `returns`, `examples`
---- ({prepare, code, result} each), and `effect` ("reads", "edits", "files" or "long") if its doc states one. A parameter has `name`, `type`, `optional`,
---- `text`, and if stated `unit`, `min`, `max` (`min_open`, `max_open`: the bound itself is excluded), `default` and `fields`, the options of a table, described
---- in the same form. A field has `type`, `unit` and `settable`.
+--- ({prepare, code, result} each), and `effect`: "reads" (changes nothing), "edits" (changes a world or another value, or acts on a device), "files" (may
+--- read or write files) or "long" (takes long, and can run as a job); `files` is true if it may read or write files beside another effect. A parameter has
+--- `name`, `type`, `optional`, `text`, and if stated `unit`, `min`, `max` (`min_open`, `max_open`: the bound itself is excluded), `default` and `fields`, the
+--- options of a table, described in the same form. A field has `type`, `unit` and `settable`.
 ---@param entry? function|string  the function or its name: "clench.rad", "hand:autograsp", "hand.dofs"; by default all entries are described
 ---@return table # one description, or a list of all
 ---@effect reads
 --- > clench.describe(clench.rad).parameters[1].unit  --> degrees
 --- > clench.describe("clench.plan.sample").parameters[1].fields[3].default  --> 100
+--- > clench.describe(hand.autograsp).effect, clench.describe(clench.plan.sample).effect  --> edits, long
 --- > clench.describe "clench.rda"  --> error: did you mean 'clench.rad'?
 return function(entry)
   if entry ~= nil and type(entry) ~= "function" and type(entry) ~= "string" then

@@ -7,14 +7,6 @@ local raise = require "clench.raise"
 local read_options = require "clench.options"
 local run = require "clench.page.run"
 
-local doc = [[
-@param options table
-@option title? string = "World"  title of the page
-@option grasps? table  list of grasps of the world's hand and object, each a frame of the page
-@option recording? table  recorded run of the world (see world:record)
-@option max_size? number [>= 1, bytes] = 1e9  largest size of the page
-@option three? string[]  files in which three.js may be]]
-
 -- half of the diagonal of a body's bounds [m]
 local function size_of(body)
   local bounds = body.bounds_in_world
@@ -53,8 +45,14 @@ end
 --- Writes a world as a page of HTML, which shows it in 3-D in a browser without a server.
 ---@param world world  world to be shown
 ---@param path string  its name ends in .html
----@param options? {title?: string, grasps?: table, recording?: table, max_size?: number, three?: string[]}
+---@param options? table  contents of the page
+---@option title? string = "World"  title of the page
+---@option grasps? grasps|table  grasps of the world's hand and object, each a frame of the page
+---@option recording? table  recorded run of the world (see world:record)
+---@option max_size? number [bytes, >= 1] = 1e9  largest size of the page
+---@option three? string[]  files in which three.js may be
 ---@return integer bytes
+---@effect files
 --- > clench.export_html(world, "page.txt")  --> error: expected a name that ends in .html, got 'page.txt'
 return function(world, path, options)
   local subject = "clench.export_html"
@@ -62,9 +60,9 @@ return function(world, path, options)
   if type(path) ~= "string" or not path:lower():find "%.html?$" then
     raise(subject .. ": path: expected a name that ends in .html, got " .. described(path))
   end
-  local read = read_options(subject, options or {}, nil, nil, doc)
+  local read = read_options(subject, options or {})
   local title, max_size = read:get "title", read:get "max_size"
-  local grasps, recording, three_files = read:raw "grasps", read:raw "recording", read:raw "three"
+  local grasps, recording, three_files = read:checked "grasps", read:checked "recording", read:checked "three"
   read:done()
   if grasps and recording then raise(subject .. ": expected grasps or a recording, got both") end
   if grasps and #grasps == 0 then raise(subject .. ": grasps: expected at least one, got none") end

@@ -13,7 +13,7 @@ end
 
 --- Converts a text, or the texts of a table in place, except keys.
 local function in_utf8(value)
-  if type(value) == "string" then return escape_bytes(value) end
+  if type(value) == "string" then return utf8.len(value) and value or escape_bytes(value) end
   if type(value) ~= "table" then return value end
   for key, item in pairs(value) do value[key] = in_utf8(item) end
   return value

@@ -88,6 +88,7 @@ end
 ---@option caption? string  caption of a floating table
 ---@option label? string  label of a floating table, for references
 ---@return string
+---@effect reads
 --- > text = clench.latex.table({{object = "mug_2", epsilon = 0.25}, {object = "flask"}}, {columns = {"object", "epsilon"}, headings = {epsilon = "$\\epsilon$"}, formats = {epsilon = "%.3f"}})
 --- > text:find("mug\\_2 & 0.250", 1, true) ~= nil, text:find("flask & --", 1, true) ~= nil  --> true, true
 --- > clench.latex.table({{a = 1}}, {headings = {b = "B"}})  --> error: headings: 'b' is not one of the columns
@@ -111,6 +112,7 @@ end
 ---@param path string  file to write
 ---@param rows table[]  one table per row
 ---@param options? table  options of `clench.latex.table`
+---@effect files
 --- > clench.latex.write("build/table.tex", {{object = "mug", epsilon = 0.25}})
 --- > clench.latex.write("no/such/folder/a.tex", {{a = 1}})  --> error: no such folder: no/such/folder
 function latex.write(path, rows, options)

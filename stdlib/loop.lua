@@ -119,12 +119,14 @@ end
 
 --- Time of a monotonic clock.
 ---@return number  [s]
+---@effect reads
 --- > clench.loop.time() <= clench.loop.time()  --> true
 function loop.time() return clock() end
 
 --- Starts a function as a coroutine of the loop. It runs from the next `run` on.
 ---@param f function  function that runs as a coroutine of the loop
 ---@return table task # `status`: "waiting", "running", "done", "failed" or "removed"; `task:remove()` ends it
+---@effect edits
 --- > words = {}
 --- > clench.loop.spawn(function() clench.loop.sleep(0.02) words[#words + 1] = "late" end)
 --- > clench.loop.spawn(function() words[#words + 1] = "soon" end)
@@ -151,6 +153,7 @@ local function calling() return running and coroutine.running() == running.threa
 
 --- Waits for a time. In a function of `spawn` other coroutines run meanwhile; elsewhere the loop runs.
 ---@param seconds number  [s]
+---@effect long
 --- > clench.loop.sleep(-1)  --> error: expected a time >= 0 in seconds, got -1
 function loop.sleep(seconds)
   check_time("sleep", seconds)
@@ -188,6 +191,7 @@ end
 ---@param timeout? number  maximum waiting time [s]
 ---@param event? "readable"|"writable"  event of a descriptor, "readable" by default
 ---@return boolean ready  false: timeout
+---@effect long
 --- > job = clench.job(function() return 3 end)
 --- > clench.loop.wait(job, 10), job:result()  --> true, 3
 --- > job = clench.job(function() while true do end end)
@@ -233,6 +237,7 @@ end
 ---@param seconds number  delay [s]
 ---@param f function  function to call
 ---@return table task # `task:remove()` ends it
+---@effect edits
 --- > clench.loop.after(0.01, function() late = true end)
 --- > clench.loop.run()
 --- > late  --> true
@@ -242,6 +247,7 @@ function loop.after(seconds, f) return add_timer("after", seconds, f) end
 ---@param seconds number  period, and delay before the first call [s]
 ---@param f function  function to call
 ---@return table task # `task:remove()` ends it
+---@effect edits
 --- > calls = 0
 --- > timer = clench.loop.every(0.01, function() calls = calls + 1 end)
 --- > clench.loop.run(0.2)
@@ -258,6 +264,7 @@ end
 ---@param f fun(descriptor: integer)  called with the descriptor when it is ready
 ---@param event? "readable"|"writable"  event, "readable" by default
 ---@return table watch # `watch:remove()` ends it
+---@effect edits
 --- > clench.loop.on(-1, print)  --> error: expected a descriptor >= 0, got -1
 --- > clench.loop.on(99999, print)  --> error: descriptor 99999 is not open
 function loop.on(descriptor, f, event)
@@ -269,6 +276,7 @@ end
 
 --- Ends all watches of a descriptor, to be called before it is closed. Coroutines that wait for it continue as if it were ready.
 ---@param descriptor integer  descriptor of a socket, a pipe, a terminal or a device
+---@effect edits
 --- > clench.loop.release(5)
 --- > clench.loop.release "5"  --> error: expected a descriptor, got '5'
 function loop.release(descriptor)
@@ -285,10 +293,12 @@ end
 --- The descriptor of the loop: readable if a time has come, a descriptor is ready, or a job has news. A host with a separate event loop polls it and calls
 --- `run(0)`.
 ---@return integer
+---@effect reads
 --- > math.type(clench.loop.descriptor())  --> integer
 function loop.descriptor() return poller:descriptor() end
 
 --- Makes `run` return.
+---@effect edits
 --- > clench.loop.spawn(function() clench.loop.stop() end)
 --- > clench.loop.run()
 function loop.stop() stop_asked = true end
@@ -390,6 +400,7 @@ end
 --- Runs the loop until nothing is left to wait for, until a time limit, or until `stop`. An error of a coroutine ends the call; the other coroutines continue
 --- at the next call. Unfinished jobs of the script count as something to wait for.
 ---@param seconds? number  time limit, 0 to run what is ready without waiting [s]
+---@effect long
 --- > clench.loop.run(0)
 --- > clench.loop.run "1"  --> error: expected a time >= 0 in seconds, got '1'
 function loop.run(seconds)

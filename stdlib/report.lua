@@ -5,7 +5,18 @@ local drives = require "clench.drives"
 local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local reading = require "clench.reading"
+local read_options = require "clench.options"
 local report = {}
+
+-- the options without those that the command line leaves empty
+local function checked(given)
+  local options = {}
+  for key, value in pairs(given) do options[key] = value ~= "" and value or nil end
+  local read = read_options("clench.report.of", options)
+  for _, option in ipairs(read.fields) do options[option.name] = read:checked(option.name) end
+  read:done()
+  return options
+end
 
 local function numbers(v) return {v.x, v.y, v.z} end
 
@@ -302,14 +313,16 @@ local readers = {
 --- the content, which depends on the kind of file, in meters, kilograms and radians; if it is absent, `error` states the reason. With `strict`, `error` is the
 --- first sentence about repaired, ignored or suspicious content, if there is any. `diagnostics` contains all messages as values, like `clench.log.collect`.
 ---@param path string  file to check
----@param options? {root?: string, confine?: string, folder?: string, package?: string, unit?: string, strict?: boolean}  options that do not apply to the kind of file are ignored
+---@param options? table  how the file is read; options that do not apply to the kind of file are ignored
+---@like clench.load  root, confine, folder, package, unit, strict
 ---@return {file: string, kind: string?, parsed: table?, inferred: string[], repaired: string[], ignored: string[], suspicious: string[], diagnostics: table[], error: string?}
+---@effect long, files
 --- > r = clench.report.of "models/hands/barrett/barrett.cfg"
 --- > r.kind, #r.parsed.dofs, r.parsed.dofs[2].unit  --> robot, 4, rad
 --- > clench.report.of("no/such.urdf").error  --> no such file: no/such.urdf
 function report.of(path, options)
   local kind
-  options = options or {}
+  options = checked(options or {})
   local heard, ok, result = listen(function()
     kind = clench.file_kind(path, {confine = options.confine})
     if kind == "robot" and is_mjcf(path) then return of_scene(path, options) end

@@ -15,7 +15,7 @@ function Session:__tostring()
   return ("session of %d commands%s"):format(#self.history.done, self.world and ", " .. tostring(self.world) or ", no world is open")
 end
 
-local groups = {"world", "settings", "file", "edit", "select", "body", "grasp", "grasps", "author", "quality", "planner", "dynamics", "virtual", "misc"}
+local groups = {"world", "settings", "file", "edit", "select", "body", "grasp", "eigengrasps", "grasps", "author", "quality", "forces", "planner", "dynamics", "virtual", "sensors", "misc"}
 local events = {changed = true, diagnostic = true, progress = true, result = true}
 
 local function command_named(self, name)
@@ -99,7 +99,7 @@ function Session:menus()
 end
 
 --- Calls a function at events: "changed" after each command, undo, redo and gesture that changes the session, and during playback; "result" with the result of
---- a command, and at the end of a job; "progress" of jobs, while `clench.loop` runs; "diagnostic" with each message that a command logs, which is then not
+--- a command, and at the end of a job; "progress" of jobs, and readings of sensors, while `clench.loop` runs; "diagnostic" with each message that a command logs, which is then not
 --- printed.
 ---@param event "changed"|"diagnostic"|"progress"|"result"
 ---@param f fun(value: table)
@@ -244,7 +244,7 @@ function Session:find(address) return arguments.find(self, address) end
 
 return function(world)
   if world ~= nil and clench.type(world) ~= "world" then raise("clench.session: expected a world, got " .. described(world)) end
-  local session = setmetatable({depth = 0, commands = {}, order = {}, subscribers = {}, selection = {}, stack = {}, postures = {}, jobs = {}, lists = {}, found = {},
+  local session = setmetatable({depth = 0, commands = {}, order = {}, subscribers = {}, selection = {}, stack = {}, postures = {}, jobs = {}, lists = {}, found = {}, sensors = {postures = {}},
                                 history = history.new()}, Session)
   for _, group in ipairs(groups) do
     for _, command in ipairs(require("clench.session.commands." .. group)) do add_command(session, command) end

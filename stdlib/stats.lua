@@ -53,6 +53,7 @@ end
 --- The arithmetic mean.
 ---@param values number[]  at least one
 ---@return number
+---@effect reads
 --- > clench.stats.mean {1, 2, 6}  --> 3.0
 --- > clench.stats.mean {}  --> error: stats.mean: expected at least one number, got none
 function stats.mean(values)
@@ -63,6 +64,7 @@ end
 --- The sample standard deviation, with denominator n - 1; 0 for a single number.
 ---@param values number[]  at least one
 ---@return number
+---@effect reads
 --- > clench.stats.std {1, 3}  --> 1.4142135623731
 function stats.std(values)
   check_values("std", values)
@@ -73,6 +75,7 @@ end
 ---@param values number[]  at least one
 ---@param part number  fraction in [0, 1]; 0: minimum, 0.5: median, 1: maximum
 ---@return number
+---@effect reads
 --- > clench.stats.quantile({5, 1, 2, 4, 3}, 0.5)  --> 3.0
 --- > clench.stats.quantile({1, 2}, 50)  --> error: stats.quantile: part: expected a number from 0 to 1, got 50
 function stats.quantile(values, part)
@@ -86,6 +89,7 @@ end
 --- Summary statistics: count, mean, sample standard deviation, minimum, maximum, median, and 5th and 95th percentiles.
 ---@param values number[]  at least one
 ---@return {count: integer, mean: number, std: number, min: number, p05: number, median: number, p95: number, max: number}
+---@effect reads
 --- > s = clench.stats.summary {4, 1, 3, 2, 5}
 --- > s.count, s.min, s.median, s.max  --> 5, 1, 3.0, 5
 function stats.summary(values)
@@ -104,6 +108,7 @@ end
 ---@option low? number  lower edge of the first interval, by default the minimum
 ---@option high? number  upper edge of the last interval, by default the maximum
 ---@return {edges: number[], counts: integer[], below: integer, above: integer}  edges: one more than counts; below, above: numbers outside of the intervals
+---@effect reads
 --- > h = clench.stats.histogram({0, 1, 1, 2, 3, 4}, {bins = 2})
 --- > h.edges  --> {0.0, 2.0, 4.0}
 --- > h.counts  --> {3, 3}
@@ -142,6 +147,7 @@ end
 ---@param successes integer [>= 0]  number of successes
 ---@param trials integer [>= 0]  number of trials
 ---@return {low: number, high: number}
+---@effect reads
 --- > i = clench.stats.interval(8, 10)
 --- > i.low < 0.5 and i.high > 0.9  --> true
 --- > clench.stats.interval(8)  --> error: stats.interval: trials: expected a whole number >= 0, got nothing

@@ -144,6 +144,7 @@ local function make_folder(path) assert(os.execute("mkdir " .. path), "the folde
 ---@param ending? string  such as ".urdf"
 ---@param text? string  content of the file; without it no file is written
 ---@return string
+---@effect files
 function test.path(ending, text)
   if not folder then
     local name = tmpname()
@@ -159,6 +160,7 @@ end
 
 --- A new empty folder, which is removed with its content at the end of `clench test`.
 ---@return string
+---@effect files
 function test.folder()
   local path = test.path()
   make_folder(path)
@@ -183,6 +185,7 @@ local function run(_, claim, fn)
 end
 
 --- Runs a file of tests, for `clench test`; returns the numbers of passed, failed and skipped tests.
+---@effect files
 function test.run_file(path)
   if type(path) ~= "string" then raise("test.run_file: path: expected a name, got " .. described(path)) end
   package.loaded.test = test

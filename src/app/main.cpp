@@ -163,9 +163,9 @@ static void add_convert(CLI::App& app, ConvertOptions& convert) {
       trust);
 }
 
-static void add_plan(CLI::App& app, PlanOptions& plan) {
+static void add_plan(CLI::App& app, PlanOptions& plan, bool plans) {
   auto* verb = app.add_subcommand("plan", "search for grasps of a hand on an object");
-  add_plan_options(*verb, plan.words);
+  add_plan_options(*verb, plan.words, plans);
   add_reading(*verb, plan.reading);
   verb->footer(
       "Examples:\n  clench plan models/hands/barrett/barrett.cfg models/objects/flask.iv -o "
@@ -197,7 +197,8 @@ static void add_serve(CLI::App& app, ServeOptions& serve) {
   add_world_reading(*verb, serve.reading);
   verb->footer(
       "Examples:\n  clench serve worlds/barrett_mug.wld\n"
-      "  clench serve worlds/barrett_mug.wld --socket /tmp/clench.socket\n\n"
+      "  clench serve worlds/barrett_mug.wld --socket /tmp/clench.socket\n"
+      "  clench serve worlds/barrett_mug.wld --http 7000 --control\n\n"
       "Ctrl-C or SIGTERM ends it. See docs/guide/server.md." +
       trust);
 }
@@ -226,7 +227,8 @@ static void add_view(CLI::App& app, ViewOptions& view) {
       trust);
 }
 
-static void add_all(CLI::App& app, Said& said) {
+// plans: a word of the command line may be the verb `plan`
+static void add_all(CLI::App& app, Said& said, bool plans) {
   app.footer(
       "Examples:\n  clench run examples/01_first_grasp.lua\n  clench -e 'print(clench.version)'\n  "
       "clench -i scene.lua\n"
@@ -243,7 +245,7 @@ static void add_all(CLI::App& app, Said& said) {
   add_script_verbs(app, said);
   add_check(app, said.check);
   add_convert(app, said.convert);
-  add_plan(app, said.plan);
+  add_plan(app, said.plan, plans);
   add_render(app, said.render);
   add_serve(app, said.serve);
   add_mcp(app, said.mcp);
@@ -312,7 +314,7 @@ static int main_of(int argc, char** argv) {
   CommandLine line = split(argc, argv);
   CLI::App app("Clench closes robot hands on objects and judges the grasps.", "clench");
   Said said;
-  add_all(app, said);
+  add_all(app, said, std::ranges::count(line.ours, "plan") > 0);
   if (!line.ours.empty()) {
     std::string& first = line.ours.front();
     if (first == "help" || first == "version") first.insert(0, "--");

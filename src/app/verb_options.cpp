@@ -6,12 +6,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <memory>
 
 #include "clench/base/error.h"
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
 #include "clench/io/grasp_files.h"
+#include "clench/script/host/state.h"
 #include "clench/spec/valid.h"
 
 namespace clench {
@@ -153,9 +154,26 @@ void add_drawing(const Adder& add, const char* size, const char* quality) {
       ->check(CLI::IsMember({"contacts", "all"}));
 }
 
+// options of the planner: names, texts and checks come from its description
+void add_planner(const Adder& add) {
+  const auto state = std::make_shared<State>();
+  const auto listed = state->call("host.plan_options", "list", {});
+  if (!listed.ok) fail(ErrorKind::internal, "{}", listed.error);
+  for (size_t i = 0; i + 2 < listed.values.size(); i += 3) {
+    const std::string& name = listed.values[i];
+    const auto fault = [state, name](const std::string& text) -> std::string {
+      const auto found = state->call("host.plan_options", "fault", {name, text});
+      return found.ok && !found.values.empty() ? found.values.front() : found.error;
+    };
+    add(name.c_str(), listed.values[i + 2].c_str())
+        ->type_name(listed.values[i + 1])
+        ->check(fault);
+  }
+}
+
 }  // namespace
 
-void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
+void add_plan_options(CLI::App& verb, std::vector<std::string>& words, bool plans) {
   const Adder add{verb, words};
   add("HAND", "a robot's file")->required()->check(named);
   add("OBJECT", "a body's file, or a mesh")->required()->check(named);
@@ -171,35 +189,7 @@ void add_plan_options(CLI::App& verb, std::vector<std::string>& words) {
       ->type_name("DOFS");
   add("--approach", "direction and point of approach, in the frame of the hand's base [m]")
       ->type_name("DX,DY,DZ[,X,Y,Z]");
-  add("--count",
-      "number of grasps: the first ones; with --seconds: the best ones of that time; default: 20, "
-      "or all of --seconds")
-      ->type_name("N")
-      ->check(whole_number(1, 1000000));
-  add("--seconds", "time limit of the search [s]")->type_name("S")->check(positive);
-  add("--seed", "seed of the random numbers; default: 1")
-      ->type_name("N")
-      ->check(
-          whole_number(std::numeric_limits<int64_t>::min(), std::numeric_limits<int64_t>::max()));
-  add("--threads", "number of threads, without effect on the grasps; default: all cores")
-      ->type_name("N")
-      ->check(whole_number(1, 1024));
-  add("--distance",
-      "grasps that differ by less than this fraction of the object's radius, of half a turn and of "
-      "the DOFs' ranges count as equal; default: 0.1")
-      ->type_name("PART")
-      ->check(not_negative);
-  add("--contacts", "fingertip: with the last links only; power: also with the palm; default: any")
-      ->type_name("KIND")
-      ->check(CLI::IsMember({"fingertip", "power", "any"}));
-  add("--force-ratio",
-      "maximum total force of all fingers, in multiples of the object's weight; default: 10")
-      ->type_name("N")
-      ->check(positive);
-  add("--max-effort",
-      "maximum effort of motors without a limit in the hand's file [N or N m]; default: none")
-      ->type_name("N")
-      ->check(positive);
+  if (plans) add_planner(add);
   add.several("-o",
               "grasps: .jsonl (written while it runs), .csv, .npz, .yaml, .json; may be repeated")
       ->type_name("FILE")
@@ -268,6 +258,10 @@ void add_serve_options(CLI::App& verb, std::vector<std::string>& words) {
       ->type_name("ADDRESS");
   add("--socket", "a Unix socket instead of a TCP port")->type_name("PATH")->check(named);
   add.flag("--stdio", "JSON-RPC over standard input and output instead");
+  add("--http", "port of a live page that shows the world in a browser; 0: the system chooses one")
+      ->type_name("N")
+      ->check(whole_number(0, 65535));
+  add.flag("--control", "the live page has sliders that move DOFs, and takes all requests");
   add("--token-file", "file that stores the token; default: in the folder of the user's session")
       ->type_name("FILE")
       ->check(named);

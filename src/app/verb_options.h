@@ -17,7 +17,9 @@ void add_world_reading(CLI::App& verb, ReadingOptions& reading);  ///< only opti
 
 /// Options of `clench plan`, `render`, `serve`, `mcp` and `view`: each given option appends its name and
 /// its value to the words.
-void add_plan_options(CLI::App& verb, std::vector<std::string>& words);
+/// plans  whether the verb may be `plan`; otherwise the options of its planner are left out, because
+///        reading their description starts Lua
+void add_plan_options(CLI::App& verb, std::vector<std::string>& words, bool plans);
 void add_render_options(CLI::App& verb, std::vector<std::string>& words);
 void add_serve_options(CLI::App& verb, std::vector<std::string>& words);
 void add_mcp_options(CLI::App& verb, std::vector<std::string>& words);

@@ -47,11 +47,15 @@ Descriptor new_socket(int family, const std::string& name) {
   return made;
 }
 
-// TCP options: sends small messages immediately, and detects when the other machine is gone
+// TCP options: sends small messages immediately, and detects within a minute that the other machine
+// is gone
 void set_tcp_options(int number) {
-  const int on = 1;
+  const int on = 1, idle = 30, interval = 10, count = 3;  // [s]
   setsockopt(number, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   setsockopt(number, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
+  setsockopt(number, IPPROTO_TCP, TCP_KEEPIDLE, &idle, sizeof idle);
+  setsockopt(number, IPPROTO_TCP, TCP_KEEPINTVL, &interval, sizeof interval);
+  setsockopt(number, IPPROTO_TCP, TCP_KEEPCNT, &count, sizeof count);
 }
 
 Stream connected(Descriptor made, const sockaddr* address, socklen_t size,

@@ -1,4 +1,5 @@
---- A client of a server: receives its lines as they arrive, and sends replies without waiting.
+--- A client of a server: its requests are received and wait to be served; replies are sent without waiting, several at once if further requests wait. Its field `serve`, a function of server and client,
+--- handles one line, request or frame that has arrived, and returns false if there is none; its field `wrap` makes a message of a reply.
 local class = require "clench.class"
 local loop = clench.loop
 
@@ -15,7 +16,8 @@ local function stop_reading(self)
 end
 
 local function read(self)
-  local _, ending = self.port:fill()
+  local count, ending = self.port:fill()
+  if count > 0 then self.heard = loop.time() end
   if ending then
     self.has_ended = true
     stop_reading(self)
@@ -26,27 +28,54 @@ local function read(self)
 end
 
 local function start_reading(self)
-  if not self.watch and not self.has_ended and not self.is_closed then
+  if not self.watch and not self.has_ended and not self.is_closed and not self.is_finishing then
     self.watch = loop.on(self.port.stream:descriptor(), function() read(self) end)
   end
 end
 
---- Takes the next line.
----@return string? line  nil: there is none
----@return string? reason  "too long"
-function Client:take_line()
-  if self.is_closed then return nil end
-  local line, why = self.port:take_line()
+--- Resumes reading, which stops while too many bytes wait.
+function Client:read_on()
   if not self.watch and self.port.stream:size() <= max_waiting(self) then start_reading(self) end
-  return line, why
 end
 
---- Sends text. A client that does not receive its replies is disconnected.
-function Client:send(text)
-  if self.is_closed then return end
-  local ok, why = self.port:send(text)
+--- Holds back further requests until `release`, while a task answers one.
+function Client:hold()
+  self:flush()
+  self.is_held = true
+end
+
+function Client:release()
+  self.is_held = false
+  if not self.is_closed then self.on_input(self) end
+end
+
+local max_gathered = 1 << 14  -- replies that are sent together [bytes]
+
+-- sends the gathered replies; returns as port:send
+local function send_gathered(self)
+  local bytes = table.concat(self.gathered)
+  self.gathered, self.gathered_size = {}, 0
+  return self.port:send(bytes)
+end
+
+--- Sends the gathered replies.
+function Client:flush()
+  self.gathers = false
+  if self.gathered_size == 0 or self.is_closed then return end
+  local ok, why = send_gathered(self)
   if not ok then self:close(why == "full" and "it does not receive" or why) end
 end
+
+--- Sends bytes; while `gathers` is set, with those that follow. A client that does not receive its replies is disconnected.
+function Client:send_raw(bytes)
+  if self.is_closed then return end
+  self.gathered[#self.gathered + 1] = bytes
+  self.gathered_size = self.gathered_size + #bytes
+  if not self.gathers or self.gathered_size > max_gathered then self:flush() end
+end
+
+--- Sends a reply.
+function Client:send(text) self:send_raw(self.wrap and self.wrap(text) or text) end
 
 --- Closes the connection at once.
 ---@param reason? string  for the server's log
@@ -54,28 +83,34 @@ function Client:close(reason)
   if self.is_closed then return end
   self.is_closed, self.reason = true, reason or "closed"
   stop_reading(self)
+  if self.gathered_size > 0 then send_gathered(self) end
   self.port:close()
   self.on_close(self)
 end
 
 --- Closes the connection once all replies are sent, or after some seconds.
-function Client:finish(reason)
+---@param reason string
+---@param seconds? number  5 by default
+function Client:finish(reason, seconds)
+  self:flush()
   if self.is_closed or self.is_finishing then return end
   self.is_finishing = true
   stop_reading(self)
   if self.port.queued == 0 then return self:close(reason) end
   loop.spawn(function()
-    self.port:drain(5)
+    self.port:drain(seconds or 5)
     self:close(reason)
   end)
 end
 
 ---@param port port
 ---@param number integer
+---@param serve fun(server: table, client: table): boolean
 ---@param on_input fun(client: table)  called when something has arrived
 ---@param on_close fun(client: table)
-return function(port, number, on_input, on_close)
-  local client = setmetatable({port = port, number = number, on_input = on_input, on_close = on_close}, Client)
+return function(port, number, serve, on_input, on_close)
+  local client = setmetatable({port = port, number = number, serve = serve, began = loop.time(), heard = loop.time(),
+                               gathered = {}, gathered_size = 0, on_input = on_input, on_close = on_close}, Client)
   start_reading(client)
   return client
 end

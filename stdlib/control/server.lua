@@ -3,16 +3,19 @@ local class = require "clench.class"
 local classes = require "clench.classes"
 local described = require "clench.described"
 local error_text = require "clench.error_text"
+local is_loopback = require "clench.control.is_loopback"
 local is_stopped = require "clench.is_stopped"
 local loop = clench.loop
 local mcp = require "clench.control.mcp"
 local new_client = require "clench.control.client"
 local new_options = require "clench.options"
 local new_port = require "clench.port.port"
+local new_turn = require "clench.control.turn"
 local open_stdio = require "clench.open_stdio"
 local rpc = require "clench.control.rpc"
 local text = require "clench.control.text"
 local token = require "clench.control.token"
+local web = require "clench.control.web"
 local getmetatable = debug.getmetatable
 
 local subject = "clench.control.server"
@@ -21,8 +24,6 @@ local Server = class "server"
 function Server:__tostring()
   return ("server at %s, %d clients%s"):format(self.name, #self.clients, self.is_closed and " (closed)" or "")
 end
-
-local function is_loopback(host) return host == "localhost" or host == "::1" or host:find "^127%." ~= nil end
 
 local methods = {"GET", "POST", "HEAD", "PUT", "DELETE", "OPTIONS", "CONNECT", "PATCH", "TRACE"}
 
@@ -60,18 +61,26 @@ local function refuse_long(client)
   client:finish "a line was too long"
 end
 
--- answers one line of one client; false: there is none
-local function serve_one(self, client)
-  if client.is_closed or client.is_finishing then return false end
-  local line, why = client:take_line()
+-- serves a line of a client; false: there is none
+local function serve_line(self, client)
+  local line, why = client.port:take_line()
   if line then
     protocol_of(client, line).answer(self, client, line)
   elseif why then
     refuse_long(client)
-  elseif client.has_ended then
-    client:finish "closed by the client"
   end
   return line ~= nil
+end
+
+-- Serves one line, request or frame of a client; false: there is none. Replies are sent once all that has arrived is answered.
+local function serve_one(self, client)
+  if client.is_closed or client.is_finishing or client.is_held then return false end
+  client.gathers = true
+  local some = client.serve(self, client)
+  if not some or client.port.stream:size() == 0 then client:flush() end
+  client:read_on()
+  if not some and client.has_ended then client:finish "closed by the client" end
+  return some
 end
 
 -- the same; an internal error ends the connection of the client that caused it, not the server
@@ -84,18 +93,23 @@ local function serve_safely(self, client)
   return true
 end
 
-local max_turn = 0.002  -- time for which clients are served before other tasks run, such as jobs and timers [s]
+-- serves one line of each client; false: there are none
+local function serve_each(self, clients)
+  local some = false
+  for _, client in ipairs(clients) do some = serve_safely(self, client) or some end
+  return some
+end
 
 -- Serves clients in the order of their connections, one line of each in turn, until no lines are left.
 local function serve(self)
-  local began, some = loop.time(), nil
+  local count, clients
+  local pause = new_turn(function()
+    for _, client in ipairs(clients) do client:flush() end
+  end)
   repeat
-    some = false
-    for _, client in ipairs {table.unpack(self.clients)} do some = serve_safely(self, client) or some end
-    if some and loop.time() - began > max_turn then
-      coroutine.yield()
-      began = loop.time()
-    end
+    if count ~= self.count then count, clients = self.count, {table.unpack(self.clients)} end
+    local some = serve_each(self, clients)
+    if some and pause() then count = nil end
   until not some
   self.is_serving = false
 end
@@ -114,14 +128,26 @@ local function remove(self, client)
   if self.on_close then self.on_close(client) end
 end
 
-local function add(self, port)
+-- a client that has not said in time which protocol it speaks, or hello
+local function find_silent(self)
+  for _, client in ipairs(self.clients) do
+    local is_known = client.is_authorized or client.protocol == text_protocol or client.is_finishing
+    if not is_known and loop.time() - client.began > self.max_silence then return client end
+  end
+end
+
+-- serve: of the client's protocol
+local function add(self, port, serve)
+  local silent = #self.clients >= self.max_clients and find_silent(self)
+  if silent then silent:close "another client took its place" end
   if #self.clients >= self.max_clients then
-    port:send(("Error: the server has %d clients and accepts no more\n"):format(self.max_clients))
+    local words = ("Error: the server has %d clients and accepts no more\n"):format(self.max_clients)
+    port:send(serve == serve_line and words or web.busy(words))
     return port:close()
   end
   port.max_line, port.max_queue = self.max_line, self.max_queue
   self.count = self.count + 1
-  local client = new_client(port, self.count, function() start_serving(self) end, function(client) remove(self, client) end)
+  local client = new_client(port, self.count, serve, function() start_serving(self) end, function(client) remove(self, client) end)
   table.insert(self.clients, client)
   if self.on_connect then self.on_connect(client) end
 end
@@ -134,7 +160,7 @@ local function add_parent(self)
     if close then close(client) end
     self:close()
   end
-  add(self, new_port(open_stdio()))
+  add(self, new_port(open_stdio()), serve_line)
   self.clients[1].protocol = self.mcp and mcp or rpc
 end
 
@@ -143,14 +169,20 @@ local function listen(self, where)
   self.name, self.port = self.listener.name, self.listener.port
 end
 
-local function accept_clients(self)
+local function listen_http(self, where)
+  self.http_listener = clench.port.listen(where)
+  self.http = self.http_listener.port
+  self.url = ("http://%s/%s"):format(self.http_listener.name, self.token and "?token=" .. self.token or "")
+end
+
+local function accept_clients(self, listener, serve)
   while true do
-    local ok, port, why = pcall(self.listener.accept, self.listener)
+    local ok, port, why = pcall(listener.accept, listener)
     if not ok then
       if is_stopped(port) then error(port, 0) end
       loop.sleep(0.1)  -- out of descriptors: waits until one is closed
     elseif port then
-      add(self, port)
+      add(self, port, serve)
     elseif why == "closed" then
       return
     end
@@ -162,6 +194,8 @@ function Server:close()
   if self.is_closed then return end
   self.is_closed = true
   if self.listener then self.listener:close() end
+  if self.http_listener then self.http_listener:close() end
+  if self.stop_watching then self.stop_watching() end
   self.stop_counting()
   for _, client in ipairs {table.unpack(self.clients)} do client:close "the server was closed" end
   for _, kept in pairs(self.jobs) do kept.job:stop() end
@@ -171,7 +205,7 @@ Server.__close = function(self) self:close() end
 
 local function read_session(o)
   local world, session = o:raw "world", o:raw "session"
-  if world ~= nil and session ~= nil then o:fail "expected either a world the controlled world; or a session, got both" end
+  if world ~= nil and session ~= nil then o:fail "expected either a world or a session, got both" end
   if world == nil and session == nil then o:fail "world: expected a world, got nothing" end
   if world ~= nil then
     if clench.type(world) ~= "world" then o:expected("world", "a world", world) end
@@ -200,26 +234,35 @@ local function read_folder(o)
   return folder
 end
 
+-- the port of the live page, and what it needs
+local function read_http(o, server, host)
+  local http, control, timeout = o:get "http", o:get "control", o:get "http_timeout"
+  if http == nil then return nil end
+  server.web = web.prepare(subject, control, timeout)
+  return {host = host, port = http}
+end
+
 local function read_options(options)
   local o = new_options(subject, options)
   local session = read_session(o)
   local port, host, path = o:get "port", o:raw "host", o:raw "path"
   if host ~= nil then check.string(subject, "host", host) end
   local is_local = path ~= nil or is_loopback(host or "localhost")
-  local server = {session = session, token = read_token(o, is_local), serves_text = is_local, clients = {}, count = 0, jobs = {}, job_count = 0, folder = read_folder(o),
+  local server = {session = session, token = read_token(o, is_local), serves_text = is_local, clients = {}, count = 0, max_silence = 10, jobs = {}, job_count = 0, folder = read_folder(o),
                   max_clients = o:get "max_clients", max_line = o:get "max_line",
                   max_queue = o:get "max_queue", on_connect = o:get "on_connect", on_close = o:get "on_close"}
   local stdio = o:get "stdio"
   server.mcp = o:get "mcp"
+  local http = read_http(o, server, host)
   o:done()
   if server.mcp and not stdio then o:fail "mcp: requires stdio" end
   if stdio then
-    if path ~= nil or host ~= nil then o:fail "stdio: expected either stdio, or a path, or host and port" end
+    if path ~= nil or host ~= nil or http then o:fail "stdio: expected either stdio, or a path, host, port or http" end
     server.token = nil
     return server
   end
   local where = path ~= nil and {path = path} or {host = host, port = port}
-  return server, where
+  return server, where, http
 end
 
 --- A server by which other programs control a world while the loop runs: by JSON-RPC 2.0, and on loopback also by the text protocol
@@ -233,13 +276,17 @@ end
 ---@option stdio? boolean = false  true: JSON-RPC over standard input and output with the program that has started this one, without a token
 ---@option mcp? "read"|"control"  the Model Context Protocol over standard input and output, instead; "read": only tools that change nothing; "control": all
 ---@option token? string|boolean  the secret of JSON-RPC clients; by default it is generated, and is the server's field `token`. false, only on loopback: none
+---@option http? integer [0 to 65535]  port of the live page, which shows the world in a browser; none by default. 0: the system chooses one, the server's field `http`
+---@option control? boolean = false  true: the live page moves DOFs, and takes all other requests; otherwise it shows the world only
+---@option http_timeout? number [0.1 to 3600, s] = 30  after which a browser that sends no request, or answers no ping, is dropped
 ---@option folder? string  below which requests may read and write files; none by default
 ---@option max_clients? integer [1 to 1000] = 64  maximum number of connected clients
 ---@option max_line? integer [1000 to 268435456, bytes] = 1048576  longest request
 ---@option max_queue? integer [1000 to 1073741824, bytes] = 4194304  maximum size of replies that a client has not received, beyond which it is disconnected
 ---@option on_connect? function  called with each new client
 ---@option on_close? function  called with each client that has disconnected; its field `reason` states why
----@return server server # `port`, `token`, `session`, `close()`
+---@return server server # `port`, `http`, `url` (of the live page), `token`, `session`, `close()`
+---@effect edits
 --- > server = clench.control.server {world = world, port = 0}
 --- > client = clench.port.connect("127.0.0.1", server.port)
 --- > client:write "getRobotName 1 0\n"
@@ -247,10 +294,25 @@ end
 --- > server:close()
 --- > clench.control.server {}  --> error: world: expected a world, got nothing
 return function(options)
-  local server, where = read_options(options)
+  local server, where, http = read_options(options)
   setmetatable(server, Server)
   if where then listen(server, where) end
+  if http then
+    local ok, problem = pcall(listen_http, server, http)
+    if not ok then
+      server.listener:close()
+      error(problem, 0)
+    end
+  end
   server.stop_counting = rpc.prepare(server)
-  if not where then add_parent(server) else loop.spawn(function() accept_clients(server) end) end
+  if not where then
+    add_parent(server)
+    return server
+  end
+  loop.spawn(function() accept_clients(server, server.listener, serve_line) end)
+  if http then
+    loop.spawn(function() accept_clients(server, server.http_listener, web.serve) end)
+    server.stop_watching = web.watch(server)
+  end
   return server
 end

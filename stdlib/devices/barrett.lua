@@ -162,6 +162,7 @@ Barrett.__gc = function(self) device.send_last(self.port, "T\r") end
 ---@option move_timeout? number [s, > 0, <= 3600] = 20  for the ends of motions
 ---@option attempts? integer [1 to 1000] = 10  maximum number of attempts to get a correct reply
 ---@return barrett hand # `initialize`, `move`, `read`, `open`, `close_fingers`, `home`, `increment`, `torque`, `stop`, `breakaways`, `close`
+---@effect edits
 --- > simulated = clench.devices.simulated.barrett {}
 --- > barrett = clench.devices.barrett {port = simulated.path}
 --- > barrett:initialize()

@@ -133,6 +133,7 @@ end
 ---@option ridge? number [>= 0] = 0  penalty on squared slopes, where sensors vary little
 ---@option outliers? number [> 0]  samples are left out if their residual exceeds this number of standard deviations, as estimated from the median
 ---@return table calibration # `slopes`, `intercepts`, as of `clench.files.glove_calibration`; `report`, by DOF: `samples`, `outliers`, `rms`, `max`, `sigma` (standard deviation of the noise) [rad]
+---@effect reads
 --- > samples = {{sensors = {50, 9}, dofs = {0}}, {sensors = {150, 9}, dofs = {1.5}}}
 --- > calibration = clench.devices.calibrate {samples = samples, sensors_of = {{1}}}
 --- > math.abs(calibration.slopes[1][1] - 0.015) < 1e-15, calibration.slopes[1][2]  --> true, 0

@@ -1,6 +1,8 @@
 local class = require "clench.class"
+local described = require "clench.described"
 local device = require "clench.devices.device"
 local new_options = require "clench.options"
+local of_glove = require "clench.devices.calibration"
 local raise = require "clench.raise"
 
 local subject = "devices.cyberglove"
@@ -51,19 +53,25 @@ function Glove:read()
   return device.median(records)
 end
 
+-- the range of a DOF; nil: it is not limited
+local function range_of(limits, d)
+  local range = limits[d]
+  local fits = range == nil or type(range) == "table" and type(range[1]) == "number" and type(range[2]) == "number"
+  if not fits then raise(("cyberglove:read_dofs: limits[%d]: expected a range {low, high}, got %s"):format(d, described(range))) end
+  return range
+end
+
 --- Values of DOFs computed by a calibration: DOF = intercept + slopes * raw.
 ---@param calibration {slopes: number[][], intercepts: number[]}  in the form of `clench.files.glove_calibration` or `hand.glove`
 ---@param limits? number[][]  in the form of hand.dof_limits; values are clamped to them
 ---@return number[] [rad]
 function Glove:read_dofs(calibration, limits)
-  if type(calibration) ~= "table" or type(calibration.slopes) ~= "table" or type(calibration.intercepts) ~= "table" then
-    raise "cyberglove:read_dofs: calibration: expected {slopes, intercepts}"
-  end
+  of_glove.check("cyberglove:read_dofs", calibration)
+  if limits ~= nil and type(limits) ~= "table" then raise("cyberglove:read_dofs: limits: expected ranges {low, high}, got " .. described(limits)) end
   local raw, out = self:read(), {}
-  for d, row in ipairs(calibration.slopes) do
-    local value = calibration.intercepts[d]
-    for s, slope in ipairs(row) do value = value + slope * (raw[s] or 0) end
-    local range = limits and limits[d]
+  for d in ipairs(calibration.slopes) do
+    local value = of_glove.dof("cyberglove:read_dofs", calibration, d, raw)
+    local range = limits and range_of(limits, d)
     out[d] = range and math.max(range[1], math.min(range[2], value)) or value
   end
   return out
@@ -84,6 +92,7 @@ Glove.__close = function(self) self:close() end
 ---@option attempts? integer [1 to 1000] = 10  maximum number of attempts to get a correct answer
 ---@option readings? integer [1 to 99] = 1  records of which each value is the median
 ---@return cyberglove glove # `read`, `read_dofs`, `is_ready`, `close`
+---@effect edits
 --- > simulated = clench.devices.simulated.cyberglove {sensors = {10, 20, 30}}
 --- > glove = clench.devices.cyberglove {port = simulated.path}
 --- > glove:is_ready()  --> true

@@ -27,6 +27,9 @@ local function ticks_of(radians) return math.floor(radians * ticks_per_turn / (2
 local function format_of(size) return size == 1 and "<i1" or size == 2 and "<i2" or "<i4" end
 local function unsigned_format_of(size) return size == 1 and "<I1" or size == 2 and "<I2" or "<I4" end
 
+-- Is it too late to go on with what was received? A device that never pauses would keep the exchange busy.
+local function is_late(self, last) return loop.time() > last + self.timeout end
+
 -- Sends a packet, and collects answers by id until all ids have answered or the timeout has passed.
 local function exchange(self, bytes, ids)
   self.port:discard()
@@ -36,6 +39,7 @@ local function exchange(self, bytes, ids)
   local wanted, received, from = {}, "", 1
   for _, id in ipairs(ids) do wanted[id] = true end
   while left > 0 do
+    if is_late(self, last) then return answers, "timeout" end
     local found, next_from, damaged = packet.decode(received, from)
     from = next_from
     if found then
@@ -60,7 +64,7 @@ local function exchange_fast(self, bytes, ids, size)
   local received, last = "", loop.time() + self.timeout
   while true do
     local answers, damaged = packet.decode_fast(received, ids, size)
-    if answers or damaged then return answers or {} end
+    if answers or damaged or is_late(self, last) then return answers or {} end
     local more
     more, why = self.port:read_some(math.max(0, last - loop.time()))
     if not more then return {}, why end
@@ -286,6 +290,7 @@ end
 ---@option timeout? number [s, > 0, <= 3600] = 0.05  for answers
 ---@option attempts? integer [1 to 1000] = 50  maximum number of attempts to get a correct answer
 ---@return dynamixel bus # `read_positions`, `write_positions`, `read_velocities`, `read_faults`, `set_torque`, `reset_watchdog`, `packet`, `close`
+---@effect edits
 --- > simulated = clench.devices.simulated.dynamixel {ids = {1, 2}}
 --- > bus = clench.devices.dynamixel {port = simulated.path, ids = {1, 2}}
 --- > bus.packet {id = 1, instruction = "ping"} == "\xFF\xFF\xFD\x00\x01\x03\x00\x01\x19\x4E"  --> true

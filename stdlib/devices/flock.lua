@@ -14,19 +14,30 @@ function Flock:__tostring() return ("Flock of %d birds at %s"):format(self.birds
 
 local function address(bird) return string.char(0xF0 + bird) end
 
--- words of a record, of which only the first byte has its high bit set; nil if it is damaged
-local function parse(record)
+-- words of the record that begins at a byte, of which only the first byte has its high bit set; nil if it is damaged
+local function parse(bytes, from, size)
   local words = {}
-  for i = 1, #record, 2 do
-    local low, high = record:byte(i, i + 1)
-    if low >= 0x80 ~= (i == 1) or high >= 0x80 then return nil end
+  for i = from, from + size - 1, 2 do
+    local low, high = bytes:byte(i, i + 1)
+    if low >= 0x80 ~= (i == from) or high >= 0x80 then return nil end
     local word = ((low << 1 & 0xFF) + 256 * high) << 1 & 0xFFFF
     words[#words + 1] = word >= 0x8000 and word - 0x10000 or word
   end
   return words
 end
 
--- a record of a bird; bytes before its beginning are skipped
+-- the first record among received bytes; if there is none, nil and the bytes that may begin one. Bytes before the beginning of a record are skipped
+local function find_record(received, size)
+  local at = received:find "[\x80-\xFF]"
+  while at and #received - at + 1 >= size do
+    local words = parse(received, at, size)
+    if words then return words end
+    at = received:find("[\x80-\xFF]", at + 1)
+  end
+  return nil, at and received:sub(at) or ""
+end
+
+-- a record of a bird
 local function request(self, bird)
   local size = 2 * self.mode.words
   for _ = 1, self.attempts do
@@ -37,14 +48,10 @@ local function request(self, bird)
       local more
       more, why = self.port:read_some(math.max(0, last - loop.time()))
       if not more then break end
-      received = received .. more
-      local at = received:find "[\x80-\xFF]"
-      received = at and received:sub(at) or ""
-      if #received >= size then
-        local words = parse(received:sub(1, size))
-        if words then return words end
-        received = received:sub(2)
-      end
+      local words
+      words, received = find_record(received .. more, size)
+      if words then return words end
+      if loop.time() > last + self.timeout then break end  -- of a device that never pauses
     end
     if why == "closed" or why == "unplugged" then device.fail(subject, self.port, why, "bird " .. bird) end
   end
@@ -53,14 +60,18 @@ end
 
 local function position_of(words) return {words[1] * range / 32768, words[2] * range / 32768, words[3] * range / 32768} end
 
--- words 4 to 12 are the rows of the rotation; the 6 lowest bits of each have no meaning
+local function dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
+
+-- words 4 to 12 are the rows of the rotation; the 6 lowest bits of each have no meaning. nil: they are not a rotation
 local function pose_of_matrix(words)
   local rows = {}
   for r = 1, 3 do
     local row = {}
     for c = 1, 3 do row[c] = (words[3 * r + c] & ~0x3F) / 32768 end
-    local norm = math.sqrt(row[1] ^ 2 + row[2] ^ 2 + row[3] ^ 2)
-    if math.abs(norm - 1) > 0.05 then return nil end
+    if math.abs(math.sqrt(dot(row, row)) - 1) > 0.05 then return nil end
+    for before = 1, r - 1 do
+      if math.abs(dot(rows[before], row)) > 0.05 then return nil end
+    end
     rows[r] = row
   end
   local function column(c) return {rows[1][c], rows[2][c], rows[3][c]} end
@@ -122,6 +133,7 @@ end
 ---@option attempts? integer [1 to 1000] = 20  maximum number of attempts to get a correct record
 ---@option readings? integer [1 to 99] = 1  records of which each word is the median: no checksum protects them
 ---@return flock flock # `read`, `close`
+---@effect edits
 --- > simulated = clench.devices.simulated.flock {poses = {clench.pose {xyz = {0.3, 0.1, 0.2}}}}
 --- > flock = clench.devices.flock {port = simulated.path}
 --- > pose = flock:read()[1]

@@ -91,6 +91,7 @@ end
 ---@option tries? integer [1 to 1000] = 3  such steps
 ---@option opening? number [rad or m, > 0] = 0.1  step by which each finger opens
 ---@return {ok: boolean, palm: string, chains: string[]} # "free", "contact" or "failed", for the palm and for each chain; no chains if the palm has failed
+---@effect reads
 --- > clench.devices.fuzzy_grasp {hand = hand, pose = hand.pose}.palm  --> free
 return function(options)
   local o = new_options(subject, options)

@@ -1,14 +1,9 @@
 local described = require "clench.described"
 local new_options = require "clench.options"
+local of_glove = require "clench.devices.calibration"
 local raise = require "clench.raise"
 
 local subject = "devices.glove_map"
-
-local function check_calibration(o, calibration)
-  if type(calibration) ~= "table" or type(calibration.slopes) ~= "table" or type(calibration.intercepts) ~= "table" then
-    o:expected("calibration", "{slopes, intercepts}, or a hand with a glove", calibration)
-  end
-end
 
 -- pairs {DOF of the hand, row of the calibration}
 local function read_pairs(o, count, rows)
@@ -32,6 +27,7 @@ end
 ---@option calibration? table  {slopes, intercepts}; that of the hand, `hand.glove`, by default
 ---@option dofs? table  rows of the calibration by the numbers of DOFs; by default each DOF has the row of its number
 ---@return fun(raw: number[]): number[]
+---@effect reads
 --- > calibration = {slopes = {{0.01}}, intercepts = {-0.5}}
 --- > to_dofs = clench.devices.glove_map {hand = hand, calibration = calibration, dofs = {[2] = 1}}
 --- > math.abs(to_dofs({60})[2] - 0.1) < 1e-12, to_dofs({60})[1] == hand.dofs[1]  --> true, true
@@ -40,7 +36,7 @@ return function(options)
   local hand = o:get "hand"
   local calibration = o:raw "calibration"
   if calibration == nil then calibration = hand.glove end
-  check_calibration(o, calibration)
+  of_glove.check(subject, calibration, ", or a hand with a glove")
   local map = read_pairs(o, #hand.dofs, #calibration.slopes)
   o:done()
   return function(raw)
@@ -48,9 +44,7 @@ return function(options)
     local out, limits = hand.dofs, hand.dof_limits
     for _, pair in ipairs(map) do
       local d, row = pair[1], pair[2]
-      local value = calibration.intercepts[row]
-      for s, slope in ipairs(calibration.slopes[row]) do value = value + slope * (raw[s] or 0) end
-      out[d] = math.max(limits[d][1], math.min(limits[d][2], value))
+      out[d] = math.max(limits[d][1], math.min(limits[d][2], of_glove.dof(subject, calibration, row, raw)))
     end
     return out
   end

@@ -9,8 +9,32 @@ local Mirror = class "mirror"
 
 function Mirror:__tostring() return ("mirror of %s at %s"):format(self.hand.name, tostring(self.device)) end
 
-local function read_device(device)
-  return device.read_positions and device:read_positions() or device:read()
+-- where the real hand is; what a driver returns is not trusted
+local function read_device(self)
+  local device = self.device
+  local method = device.read_positions and "read_positions" or "read"
+  local values = device[method](device)
+  if type(values) ~= "table" or #values ~= #self.dofs then
+    raise(("%s: device: expected %d numbers from %s, got %s"):format(subject, #self.dofs, method, described(values)))
+  end
+  for i, value in ipairs(values) do
+    if type(value) ~= "number" or value - value ~= 0 then
+      raise(("%s: device: value %d of %s: expected a finite number, got %s"):format(subject, i, method, described(value)))
+    end
+  end
+  return values
+end
+
+-- Where the real hand is when the first values are sent. From far beyond the limits no value fulfills both the limits and the largest speed.
+local function start_of(self, reach)
+  local values = read_device(self)
+  for i, value in ipairs(values) do
+    local range = self.limits[i]
+    if value < range[1] - reach or value > range[2] + reach then
+      raise(("%s: value %d of the device, %.6g, is beyond its limits %.6g to %.6g: bring it back first"):format(subject, i, value, range[1], range[2]), "stale")
+    end
+  end
+  return values
 end
 
 local function write_device(device, values)
@@ -34,7 +58,7 @@ end
 --- Moves the simulated hand to the posture of the real one, until contact stops it.
 ---@return table result  as of hand:move_dofs
 function Mirror:pull()
-  local dofs, limits = to_hand(self, read_device(self.device)), self.hand.dof_limits
+  local dofs, limits = to_hand(self, read_device(self)), self.hand.dof_limits
   for d, value in ipairs(dofs) do dofs[d] = math.max(limits[d][1], math.min(limits[d][2], value)) end
   return self.hand:move_dofs(dofs)
 end
@@ -45,13 +69,14 @@ end
 function Mirror:push()
   local now = loop.time()
   local seconds = self.pushed and math.min(now - self.pushed, self.interval) or self.interval
-  local from = self.sent or read_device(self.device)
-  local goal, reach, done = to_device(self, self.hand.dofs), self.max_speed * seconds, true
+  local reach = self.max_speed * seconds
+  local from = self.sent or start_of(self, reach)
+  local goal, done = to_device(self, self.hand.dofs), true
   local out = {}
   for i, value in ipairs(goal) do
     local range = self.limits[i]
     value = math.max(range[1], math.min(range[2], value))
-    out[i] = math.max(from[i] - reach, math.min(from[i] + reach, value))
+    out[i] = math.max(range[1], math.min(range[2], math.max(from[i] - reach, math.min(from[i] + reach, value))))
     done = done and math.abs(out[i] - value) < 1e-9
   end
   write_device(self.device, out)
@@ -106,13 +131,14 @@ end
 ---@param options table
 ---@option hand robot  the simulated hand
 ---@option device any  a driver with `read` and `move`, or `read_positions` and `write_positions`
----@option dofs? integer[]  DOFs of the hand, one for each value of the device; all by default
+---@option dofs? index[]  DOFs of the hand, one for each value of the device; all by default
 ---@option signs? number[]  1 or -1 for each value; DOF = sign * value + offset
 ---@option offsets? number[]  for each value [rad or m]
 ---@option limits? number[][]  ranges of values that are sent; those of the simulated hand by default
 ---@option max_speed? number [rad/s or m/s, > 0] = 1  maximum speed of each value that is sent
 ---@option interval? number [s, > 0] = 0.1  maximum duration of the motion of one call of push
 ---@return mirror mirror # `pull`, `push`
+---@effect reads
 --- > device = {read = function() return {0, 1, 1, 1} end, move = function() end}
 --- > clench.devices.mirror {hand = hand, device = device, dofs = {1, 1}}  --> error: dofs[2] must be another number
 return function(options)

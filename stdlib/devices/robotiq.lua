@@ -70,6 +70,7 @@ gripper.complete(Robotiq)
 ---@option poll? number [s, >= 0] = 0.02  between two queries for the end of a motion
 ---@option attempts? integer [1 to 1000] = 50  maximum number of attempts to get a correct answer
 ---@return robotiq gripper # `activate`, `move`, `read`, `stop`, `close`
+---@effect edits
 --- > simulated = clench.devices.simulated.robotiq {}
 --- > gripper = clench.devices.robotiq {port = simulated.path}
 --- > gripper:activate()

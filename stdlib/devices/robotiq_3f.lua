@@ -118,6 +118,7 @@ gripper.complete(Gripper)
 ---@option poll? number [s, >= 0] = 0.02  between two queries for the end of a motion
 ---@option attempts? integer [1 to 1000] = 50  maximum number of attempts to get a correct answer
 ---@return robotiq_3f gripper # `activate`, `set_mode`, `move`, `read`, `stop`, `close`
+---@effect edits
 --- > simulated = clench.devices.simulated.robotiq_3f {}
 --- > gripper = clench.devices.robotiq_3f {port = simulated.path}
 --- > gripper:activate()

@@ -20,6 +20,7 @@ end
 ---@option base? pose  reading of the base: of the sensor itself (relative), or of the camera's
 ---@option pose? pose  of the body (relative) or the camera at that time, in the world
 ---@return fun(reading: pose): pose
+---@effect reads
 --- > mount = clench.pose {xyz = {0, 0, 0.1}}
 --- > to_body = clench.devices.tracker_map {mount = mount}
 --- > to_body(clench.pose {xyz = {1, 0, 0.5}}).position  --> (1, 0, 0.4)

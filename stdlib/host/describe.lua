@@ -24,7 +24,7 @@ local function print_one(entry)
   local names = {}
   for i, item in ipairs(entry.parameters) do names[i] = item.name end
   print(entry.kind == "field" and entry.name or ("%s(%s)"):format(entry.name, table.concat(names, ", ")))
-  print("  " .. joined(entry.text, entry.type and "Type " .. entry.type or "", entry.effect and "Effect: " .. entry.effect or ""))
+  print("  " .. joined(entry.text, entry.type and "Type " .. entry.type or "", "Effect: " .. signature.effect_text(entry)))
   print_items(entry.parameters, "  ")
   for _, item in ipairs(entry.returns) do print("  " .. joined("returns " .. item.type, item.text)) end
   for _, example in ipairs(entry.examples) do

@@ -9,6 +9,7 @@ local is_stopped = require "clench.is_stopped"
 local printable = require "clench.printable"
 local plan_files = require "clench.host.plan_files"
 local plan_list = require "clench.host.plan_list"
+local plan_options = require "clench.host.plan_options"
 local recorded = require "clench.plan.recorded"
 local report_rows = require "clench.plan.report_rows"
 local scene = require "clench.host.scene"
@@ -41,22 +42,22 @@ local function progress_lines()
 end
 
 local function run_search(given)
-  local seconds = tonumber(given.seconds)
-  local list = job.list
-  local count = list and list.count or math.tointeger(tonumber(given.count)) or seconds and 1000000 or 20
-  if list then list.count = count end
-  local options = {
-    hand = job.hand, object = job.object, count = count, seconds = seconds,
-    seed = math.tointeger(tonumber(given.seed)), threads = math.tointeger(tonumber(given.threads)) or clench.parallel.cores,
-    contacts = given.contacts, max_effort = tonumber(given["max-effort"]), distance = tonumber(given.distance),
-    keep_searching = seconds ~= nil, on_progress = given.lines and progress_lines() or nil,
-    verify = given["no-verify"] == nil and {shake = given.verify and true or nil, keep_lost = given["keep-lost"] ~= nil,
-                                               force_ratio = tonumber(given["force-ratio"])},
-    on_grasp = function(grasp)
-      job.found[#job.found + 1] = grasp
-      if list then list:add(grasp) end
-    end,
-  }
+  local options, list = plan_options.read(given), job.list
+  options.count = list and list.count or options.count or options.seconds and 1000000 or 20
+  if list then list.count = options.count end
+  options.hand, options.object = job.hand, job.object
+  options.threads = options.threads or clench.parallel.cores
+  options.keep_searching = options.seconds ~= nil
+  options.on_progress = given.lines and progress_lines() or nil
+  if given["no-verify"] then
+    options.verify = false
+  else
+    options.verify.shake, options.verify.keep_lost = given.verify and true or nil, given["keep-lost"] ~= nil
+  end
+  function options.on_grasp(grasp)
+    job.found[#job.found + 1] = grasp
+    if list then list:add(grasp) end
+  end
   if list then recorded[options] = list:journal() end
   given_of[options] = given
   job.run = clench.plan.sample(options)
@@ -70,7 +71,7 @@ local function search(root, folder, package, unit, strict, ...)
   job.list, job.files = plan_list.check(given), plan_files.check(given)
   job.world, job.hand, job.object = scene.load(given, {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""})
   local list = job.list
-  if list then list:compare(identity.of(given, job.world, job.hand), math.tointeger(tonumber(given.count))) end
+  if list then list:compare(identity.of(given, job.world, job.hand), plan_options.read(given).count) end
   if list and list.is_complete then
     job.run = {grasps = list.kept, report = ("%s: the search is complete"):format(list.path)}
   else

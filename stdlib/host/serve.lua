@@ -3,6 +3,7 @@ local error_text = require "clench.error_text"
 local in_utf8 = require "clench.in_utf8"
 local is_stopped = require "clench.is_stopped"
 local printable = require "clench.printable"
+local raise = require "clench.raise"
 local reading = require "clench.reading"
 local save_secret = require "clench.save_secret"
 local serve = {}
@@ -41,23 +42,32 @@ end
 
 local function announce(given, server, kept)
   say("%s is served at %s", given.world, server.listener.name)
+  if server.url then say("live page: %s", server.url) end
   if not server.token then return say "without a token: any program on this machine can control it" end
   say("JSON-RPC: %s/?token=%s", given.socket and "unix://" .. given.socket or "tcp://" .. server.listener.name, server.token)
   if kept then say("the token is stored in %s", kept.path) end
 end
 
+-- the port of the live page; options that mean nothing without it are refused
+local function http_of(given)
+  if given.control and not given.http and given.verb == "serve" then raise "--control: expected --http, too: it lets the live page move DOFs" end
+  return given.http and tonumber(given.http)
+end
+
 local function run(root, folder, package, unit, strict, ...)
   local said = {root = root, folder = folder, package = package, unit = unit, strict = strict ~= ""}
   local given = read_words(...)
+  local http = http_of(given)
   local world = clench.load(given.world, reading("world", said))
   local token
   if given["no-token"] then token = false end
   if given.stdio or given.verb == "mcp" then
     local mcp = given.verb == "mcp" and (given.control and "control" or "read") or nil
-    local server <close> = clench.control.server {world = world, stdio = true, mcp = mcp, folder = given.folder, path = given.socket, host = given.host}
+    local server <close> = clench.control.server {world = world, stdio = true, mcp = mcp, folder = given.folder, path = given.socket, host = given.host, http = http}
     return clench.loop.run()
   end
   local server <close> = clench.control.server {world = world, path = given.socket, host = given.host, token = token, folder = given.folder,
+                                                http = http, control = given.control ~= nil,
                                                 port = not given.socket and tonumber(given.port or 4765) or nil}
   local kept <close> = server.token and keep_token(server, given["token-file"]) or nil
   announce(given, server, kept)

@@ -36,7 +36,7 @@ function run.data_of(recording)
   return {meshes = list.list, images = list.images, parts = parts, times = recording.times, frames = base64(bytes)}, list.notes
 end
 
-local view = [==[
+local played = [==[
 <div id="view"><div class="shown"></div><div class="note">drag: turn &middot; wheel: zoom &middot; right button: move &middot; space: play</div></div>
 <div class="controls"><button id="play" type="button">pause</button>
 <input type="range" id="time" min="0" max="1" step="any" value="0" style="flex: 1; min-width: 200px">
@@ -46,19 +46,31 @@ local view = [==[
 <div class="controls" id="bodies"></div>
 ]==]
 
+--- What a page may load and do: nothing but what it contains.
+run.policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
+
+--- A page that plays its frames.
+run.player = {
+  head = ('<meta http-equiv="Content-Security-Policy" content="%s">'):format(run.policy),
+  style = "main { display: block; } #view { height: 72vh; max-height: none; }", body = played,
+  script = function() return require "clench.page.run_player" end,
+}
+
 --- The HTML text of a page.
-function run.page_of(title, words, data, three)
+---@param content? {head: string, style: string, body: string, script: function}  of the page besides its data; run.player by default
+function run.page_of(title, words, data, three, content)
+  content = content or run.player
   return table.concat {
     ([==[<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:">
+%s
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>%s</title>
-<style>%s main { display: block; } #view { height: 72vh; max-height: none; }</style></head>
+<style>%s %s</style></head>
 <body><header><h1>%s</h1><p>%s</p></header><main>
-]==]):format(text.escaped(title), require "clench.page.style", text.escaped(title), text.escaped(words)), view,
+]==]):format(content.head, text.escaped(title), require "clench.page.style", content.style, text.escaped(title), text.escaped(words)), content.body,
     '</main><script type="application/json" id="data">', text.json(data), "</script>\n<script>", text.code(three), "</script>\n<script>",
-    text.code(require "clench.page.scene"), text.code(require "clench.page.run_player"), "</script>\n</body></html>\n"}
+    text.code(require "clench.page.scene"), text.code(require "clench.page.bodies"), text.code(content.script()), "</script>\n</body></html>\n"}
 end
 
 return run

@@ -23,6 +23,7 @@ local closing = require "clench.plan.closing"
 ---@option world? world  world of hand and object that the planner moves, the hand's by default
 ---@option max_effort? number [N m or N, > 0]  maximum torque or force of motors without a limit
 ---@return {grasps: grasps, report: table} # grasps in order of increasing energy, each with its `pregrasp`, and `info.energy`, `info.step`, `info.seed`; report: steps, first, best, steps_per_second, accepted, in_collision, ..., trace, causes; chart() draws the best energy over the steps
+---@effect long
 --- > run = clench.plan.anneal {hand = hand, object = flask, steps = 500, seed = 1}
 --- > run.report.steps, run.report.best < run.report.first  --> 500, true
 --- > clench.plan.anneal {hand = hand, object = flask, step = 500}  --> error: unknown key 'step'

@@ -20,6 +20,7 @@ local opposition = require "clench.plan.opposition"
 ---@option on_grasp? function  on_grasp(grasp) is called for each grasp that is found
 ---@like clench.plan.anneal  grasp, world, max_effort
 ---@return {grasps: grasps, report: table} # grasps in force closure, in order of decreasing epsilon
+---@effect long
 --- > world = clench.world()
 --- > jaws = world:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg"
 --- > bar = world:add_object(clench.shapes.box {0.03, 0.03, 0.1}, {pose = {xyz = {0, 0, 1}}})

@@ -45,6 +45,7 @@ end
 ---@like clench.plan.anneal  seconds, seed, position, posture, semi_axes, limits, jumps, values, targets, fixed, start, variables,
 ---  collisions, max_tries, contacts, touch, threads, grasp, world, max_effort
 ---@return {grasps: grasps, report: table} # grasps in force closure, in order of decreasing epsilon
+---@effect long
 --- > run = clench.plan.guided {hand = hand, object = flask, steps = 500, seed = 1}
 --- > run.report.steps, run.report.seeds >= 0  --> 500, true
 return function(options)

@@ -61,6 +61,7 @@ end
 ---@option count? integer [1 to 1000000]  number of grasps that ends the search, any number by default
 ---@like clench.plan.anneal  seconds, seed, threads, contacts, touch, grasp, world, max_effort
 ---@return {grasps: grasps, report: table} # all grasps with contacts, in order of decreasing epsilon
+---@effect long
 --- > run = clench.plan.list {hand = hand, object = flask, states = {{pose = grasp.pose, dofs = grasp.dofs}, grasp}}
 --- > #run.grasps, run.report.candidates  --> 1, 2
 --- > clench.plan.list {hand = hand, object = flask, states = {3}}  --> error: states[1]: expected a grasp or {pose =, dofs =}, got 3

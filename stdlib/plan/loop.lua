@@ -15,6 +15,7 @@ local closing = require "clench.plan.closing"
 ---@like clench.plan.anneal  seconds, seed, position, posture, semi_axes, limits, jumps, values, targets, fixed, start, variables,
 ---  collisions, max_tries, contacts, touch, threads, grasp, world, max_effort
 ---@return {grasps: grasps, report: table}
+---@effect long
 --- > run = clench.plan.loop {hand = hand, object = flask, steps = 600, loop_steps = 200, energy = "contact", max_energy = 500}
 --- > run.report.steps, run.report.loops  --> 600, 3
 return function(options)

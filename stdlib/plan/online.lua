@@ -97,6 +97,7 @@ end
 ---@like clench.plan.anneal  seed, threads, posture, semi_axes, values, targets, fixed, variables, collisions, max_tries,
 ---  contacts, touch, grasp, world, max_effort
 ---@return table planner  `search(steps)`, `grasps()`, `preshape()`, the DOFs for the further approach, `tested`, `found`
+---@effect long
 --- > planner = clench.plan.online {hand = hand, object = flask}
 --- > list = planner:search(200)
 --- > planner.tested > 0, #list == #planner:grasps()  --> true, true

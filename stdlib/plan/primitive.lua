@@ -92,6 +92,7 @@ end
 ---@option on_grasp? function  on_grasp(grasp) is called for each grasp that is found
 ---@like clench.plan.anneal  grasp, world, max_effort
 ---@return {grasps: grasps, report: table} # grasps in force closure, in order of decreasing epsilon
+---@effect long, files
 --- > list = {{kind = "cylinder", pose = clench.pose {}, radius = 0.03, height = 0.1}}
 --- > clench.plan.primitive {hand = hand, object = flask, primitives = list, density = 1}.report.candidates  --> 12
 --- > clench.plan.primitive {hand = hand, object = flask, density = 1}.report.primitives:match "[^/]*/[^/]*$"  --> primitives/flask.iv

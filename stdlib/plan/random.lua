@@ -17,6 +17,7 @@ local sampling = require "clench.plan.sampling"
 ---  reason, elapsed [s], hint = a sentence that says whether friction, force or effort is too small}
 ---@like clench.plan.anneal  grasp, world, max_effort
 ---@return {grasps: grasps, report: table} # grasps in force closure, in order of decreasing epsilon
+---@effect long
 --- > run = clench.plan.random {hand = hand, object = flask, count = 3}
 --- > run.grasps[1].epsilon > 0  --> true
 --- > clench.plan.random {hand = hand, object = flask, refine = 3}  --> error: unknown key 'refine'

@@ -28,7 +28,7 @@ end
 ---@option refine? integer [0 to 10000] = 10  number of changes tried to improve each grasp
 ---@option verify? boolean|table = true  false: grasps are not verified; a table: settings of the verification
 ---@option verify.displacement? number [m, >= 0] = 0.001  displacement of the object in each of six directions
----@option verify.force_ratio? number [>= 0] = 10  maximum sum of the normal forces, in weights of the object
+---@option verify.force_ratio? number [> 0] = 10  maximum sum of the normal forces, in weights of the object
 ---@option verify.lift? number [m, >= 0] = 0.1  height of the lift
 ---@option verify.min_epsilon? number [>= 0] = 0.01  minimum epsilon, also after the displacement
 ---@option verify.min_load? number [>= 0] = 2  minimum load that the grasp must hold, in weights of the object
@@ -47,6 +47,7 @@ end
 ---  reason, elapsed [s], hint = a sentence that says whether friction, force or effort is too small}
 ---@like clench.plan.anneal  grasp, world, max_effort
 ---@return {grasps: grasps, report: table} # in order of decreasing epsilon, from different sides if more than `count` were found; each with `info.load_margin` [weights] and `info.perturbed_epsilon`, shaken grasps also with `info.directions_held` and `info.survived`, 1 or 0; report.shaken, report.survived: numbers of grasps
+---@effect long
 --- > run = clench.plan.sample {hand = hand, object = flask, count = 3, refine = 2}
 --- > run.grasps[1].epsilon > 0, run.report.candidates > 3  --> true, true
 --- > clench.plan.sample {hand = hand, object = flask, verify = {lfit = 0}}  --> error: unknown key 'lfit'

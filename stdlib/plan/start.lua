@@ -9,6 +9,7 @@ require "clench.plan.run" -- the class of the result, and that of its report
 ---@param planner string  "sample", "anneal", ...
 ---@param options table  of that planner, without functions
 ---@return job job # each grasp is an event as soon as it is found; `result()` returns the planner's {grasps, report}, whose grasps belong to no world; `snapshot` is the progress of clench.plan.sample. If the job is stopped, the grasps found so far are its events
+---@effect reads
 --- > job = clench.plan.start("sample", {hand = hand, object = flask, count = 2, refine = 2})
 --- > clench.loop.wait(job)
 --- > #job:result().grasps == 2, #job:events() >= 2  --> true, true

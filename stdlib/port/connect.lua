@@ -38,6 +38,7 @@ end
 ---@param port? integer [1 to 65535]  of the server
 ---@param seconds? number  maximum waiting time; 10 by default [s]
 ---@return port
+---@effect edits
 --- > listener = clench.port.listen {}
 --- > client = clench.port.connect("127.0.0.1", listener.port)
 --- > server = listener:accept(1)

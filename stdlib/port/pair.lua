@@ -4,6 +4,7 @@ local open_pair = require "clench.open_pair"
 --- Two ports, each of which receives the bytes written to the other.
 ---@return port a
 ---@return port b
+---@effect edits
 --- > a, b = clench.port.pair()
 --- > a:write "one\ntwo\n"
 --- > b:read_line(1), b:read_line(1)  --> one, two

@@ -12,6 +12,7 @@ local Port = class "port"
 local default_max_line = 1 << 20    -- [bytes]
 local default_max_queue = 4 << 20   -- maximum size of data that wait to be sent [bytes]
 local max_read = 1 << 26            -- maximum of one read by count [bytes]
+local max_discard = 1 << 20         -- maximum that arrives while earlier bytes are discarded [bytes]
 
 function Port:__tostring() return ("port %s%s"):format(self.name, self:is_open() and "" or " (closed)") end
 
@@ -122,9 +123,13 @@ function Port:take_line()
   return without_return(find_delimiter(self, "\n"))
 end
 
---- Removes all bytes that have arrived and were not read, and returns them.
+--- Removes all bytes that have arrived and were not read, and returns them; of a stream that never pauses, only up to a limit.
 function Port:discard()
-  while self:fill() > 0 do end
+  local left = max_discard
+  repeat
+    local count = self:fill()
+    left = left - count
+  until count == 0 or left <= 0
   return self.stream:take(self.stream:size())
 end
 

@@ -45,6 +45,7 @@ end
 ---@param options? table
 ---@option speed? number [> 0] = 1  `math.huge`: without pauses
 ---@return port
+---@effect files
 --- > a, b = clench.port.pair()
 --- > path = os.tmpname()
 --- > a:record(path)

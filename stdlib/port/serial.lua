@@ -12,6 +12,7 @@ local on_behalf_of = require "clench.on_behalf_of"
 ---@option parity? "none"|"even"|"odd"
 ---@option flow? "none"|"hardware"|"software"
 ---@return port port # `port:read`, `read_some`, `read_line`, `read_until`, `write`, `send`, `drain`, `record`, `close`
+---@effect edits
 --- > pty = clench.port.pty()
 --- > line = clench.port.serial {path = pty.path, baud = 115200}
 --- > line:write "?G"

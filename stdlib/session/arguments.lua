@@ -70,6 +70,18 @@ local function check_choice(subject, parameter, value)
                                                suggest(tostring(value), parameter.choices)))
 end
 
+local no_parameters = {}
+local known_names = setmetatable({}, {__mode = "k"})  -- by list of parameters: their names, as a list and as a set
+
+local function names_of(parameters)
+  local found = known_names[parameters]
+  if found then return found.list, found.set end
+  local names, known = {}, {}
+  for i, parameter in ipairs(parameters) do names[i], known[parameter.name] = parameter.name, true end
+  known_names[parameters] = {list = names, set = known}
+  return names, known
+end
+
 --- Reads the arguments of a command.
 ---@param command table
 ---@param given? table
@@ -77,14 +89,14 @@ end
 function arguments.read(command, given)
   local subject = "session:run: " .. command.name
   if given ~= nil and type(given) ~= "table" then raise(("%s: expected a table of arguments, got %s"):format(subject, described(given))) end
-  local out, names, known = {}, {}, {}
-  for _, parameter in ipairs(command.parameters or {}) do names[#names + 1], known[parameter.name] = parameter.name, true end
+  local parameters = command.parameters or no_parameters
+  local out, names, known = {}, names_of(parameters)
   for name in pairs(given or {}) do
     if not known[name] then
       raise(("%s: unknown argument '%s'%s%s"):format(subject, tostring(name), #names > 0 and ", expected " .. table.concat(names, ", ") or "", suggest(tostring(name), names)))
     end
   end
-  for _, parameter in ipairs(command.parameters or {}) do
+  for _, parameter in ipairs(parameters) do
     local name, value = parameter.name, given and given[parameter.name]
     if value == nil then value = parameter.default end
     if value == nil and not parameter.optional then
@@ -103,6 +115,7 @@ end
 
 -- the parts of an address: {"dlr", "chain0_link2"} of "dlr/chain0_link2"
 local function parts_of(address)
+  if not address:find "[/\\]" then return {address} end
   local parts = {}
   for part in (address:gsub("\\/", "\0") .. "/"):gmatch "(.-)/" do parts[#parts + 1] = (part:gsub("%z", "/")) end
   return parts

@@ -7,6 +7,7 @@ local function number(x)
   if x ~= x then return "0 / 0" end
   if x == math.huge or x == -math.huge then return x > 0 and "math.huge" or "-math.huge" end
   if math.type(x) == "integer" then return ("%d"):format(x) end
+  if x == 0 then return 1 / x < 0 and "-0.0" or "0" end
   -- the shortest text that is read back bit-exactly
   for digits = 15, 16 do
     local text = ("%." .. digits .. "g"):format(x)
@@ -76,10 +77,23 @@ local function loose_joints(robot)
   return rows
 end
 
+-- setting a pose, even the present one, stops what moves
+local function has_stopped(body, old)
+  local now, before = body.velocity, old.velocity
+  return now.linear ~= before.linear or now.angular ~= before.angular
+end
+
+local function has_robot_stopped(robot, old)
+  for i, link in ipairs(robot.bodies) do
+    if has_stopped(link, old.bodies[i]) then return true end
+  end
+  return false
+end
+
 -- joints: joints that have left their DOFs are also listed
 local function lines_of_robot(robot, old, joints, lines)
   local name = script.name_of(robot)
-  if robot.pose ~= old.pose and not robot.parent then lines[#lines + 1] = ("%s.pose = %s"):format(name, script.literal(robot.pose)) end
+  if not robot.parent and (robot.pose ~= old.pose or has_robot_stopped(robot, old)) then lines[#lines + 1] = ("%s.pose = %s"):format(name, script.literal(robot.pose)) end
   local loose = joints and loose_joints(robot) or {}
   if #loose > 0 then
     lines[#lines + 1] = ("%s:set_dofs(%s, {joint_positions = %s})"):format(name, script.literal(robot.dofs), script.literal(loose))
@@ -90,7 +104,7 @@ end
 
 local function lines_of_body(body, old, lines)
   local name = script.name_of(body)
-  if not body.robot and body.pose ~= old.pose then lines[#lines + 1] = ("%s.pose = %s"):format(name, script.literal(body.pose)) end
+  if not body.robot and (body.pose ~= old.pose or has_stopped(body, old)) then lines[#lines + 1] = ("%s.pose = %s"):format(name, script.literal(body.pose)) end
   if body.mass ~= old.mass then lines[#lines + 1] = ("%s.mass = %s"):format(name, script.literal(body.mass)) end
   if body.material ~= old.material then lines[#lines + 1] = ("%s.material = %s"):format(name, script.literal(body.material)) end
 end

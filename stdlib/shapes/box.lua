@@ -13,6 +13,7 @@ local faces = {{1, 4, 3, 2}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8,
 ---@option rounding? number [m, >= 0] = 0  radius of the edges
 ---@option segments? integer [1 to 64] = 4  segments per quarter turn of a rounding
 ---@return table mesh
+---@effect reads
 return function(options)
   local o = read_options("box", options, {"x", "y", "z"})
   local x, y, z = o:get "x", o:get "y", o:get "z"

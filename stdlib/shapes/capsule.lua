@@ -12,6 +12,7 @@ local revolve = require "clench.shapes.revolve"
 ---@option to? vec3 [m]  end of the axis
 ---@option segments? integer [4 to 1024] = 32  segments around the axis
 ---@return table mesh
+---@effect reads
 return function(options)
   local o = read_options("capsule", options, {"radius", "length"})
   local radius = o:get "radius"

@@ -12,6 +12,7 @@ local revolve = require "clench.shapes.revolve"
 ---@option to? vec3 [m]  end of the axis
 ---@option segments? integer [3 to 4096] = 48  segments around the axis
 ---@return table mesh
+---@effect reads
 return function(options)
   local o = read_options("cone", options, {"bottom", "top", "height"})
   local bottom, top = o:get "bottom", o:get "top"

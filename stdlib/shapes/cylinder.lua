@@ -14,6 +14,7 @@ local revolve = require "clench.shapes.revolve"
 ---@option rounding? number [m, >= 0] = 0  radius of the rims
 ---@option segments? integer [3 to 4096] = 48  segments around the axis
 ---@return table mesh
+---@effect reads
 return function(options)
   local o = read_options("cylinder", options, {"radius", "height"})
   local radius = o:get "radius"

@@ -9,6 +9,7 @@ local revolve = require "clench.shapes.revolve"
 ---@option profile number[][] [m]  points {r, z}, in either orientation
 ---@option segments? integer [3 to 4096] = 48  segments around the axis
 ---@return table mesh
+---@effect reads
 return function(options)
   local o = read_options("lathe", options, {"profile"})
   local profile, segments = o:points("profile", 3, 2), o:get "segments"

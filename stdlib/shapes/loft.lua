@@ -8,6 +8,7 @@ local skin = require "clench.shapes.skin"
 --- points; the first and the last may be a single point, an apex, and are capped by flat faces otherwise.
 ---@param sections number[][][]  two or more rings [m]
 ---@return table mesh
+---@effect reads
 return function(sections)
   local o = read_options("loft", sections)
   local rings, count = {}, nil

@@ -8,6 +8,7 @@ local measure = {}
 --- Minimum and maximum coordinates.
 ---@param shape table  {vertices = ..., triangles = ...}
 ---@return number[] low, number[] high  [m]
+---@effect reads
 function measure.bounds(shape)
   shape = mesh.check(shape, "shapes.bounds")
   local low, high = {math.huge, math.huge, math.huge}, {-math.huge, -math.huge, -math.huge}
@@ -20,11 +21,13 @@ end
 --- Enclosed volume, > 0 if the triangles face outward; overlaps between parts of a union count twice.
 ---@param shape table  {vertices = ..., triangles = ...}
 ---@return number volume  [m^3]
+---@effect reads
 function measure.volume(shape) return mesh.volume6(mesh.check(shape, "shapes.volume")) / 6 end
 
 --- Area of the surface.
 ---@param shape table  {vertices = ..., triangles = ...}
 ---@return number area  [m^2]
+---@effect reads
 function measure.area(shape)
   shape = mesh.check(shape, "shapes.area")
   local sum = 0
@@ -38,6 +41,7 @@ end
 --- Does every edge occur exactly once in each direction, so that the surface bounds a solid?
 ---@param shape table  {vertices = ..., triangles = ...}
 ---@return boolean closed, string? why  the fault if it is not closed
+---@effect reads
 function measure.closed(shape)
   shape = mesh.check(shape, "shapes.closed")
   local runs, count = {}, #shape.vertices + 1
@@ -64,6 +68,7 @@ end
 ---@param shape table  {vertices = ..., triangles = ...}
 ---@return {volume: number, centroid: number[], inertia: number[][]} mass  [m^3, m]; inertia about the centroid for
 ---  unit mass [m^2]
+---@effect reads
 function measure.mass(shape)
   shape = mesh.check(shape, "shapes.mass")
   local origin = shape.vertices[1]

@@ -26,6 +26,7 @@ end
 ---@option rounding? number [m, >= 0] = 0  radius of corners without one
 ---@option segments? integer [1 to 256] = 6  segments per corner
 ---@return number[][] points
+---@effect reads
 return function(options)
   local o = read_options("outline", options)
   local rounding, segments = o:get "rounding", o:get "segments"

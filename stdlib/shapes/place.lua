@@ -23,6 +23,7 @@ end
 ---@param shape table  mesh as functions of clench.shapes return it
 ---@param offset number[]  {x, y, z} [m]
 ---@return table mesh
+---@effect reads
 function place.move(shape, offset)
   shape = mesh.check(shape, "shapes.move")
   offset = check_vector("shapes.move", "the offset", offset)
@@ -35,6 +36,7 @@ end
 ---@param angle number  right-handed [rad]
 ---@param about? number[]  a point of the axis, the origin by default [m]
 ---@return table mesh
+---@effect reads
 function place.turn(shape, axis, angle, about)
   shape = mesh.check(shape, "shapes.turn")
   local unit = vector.unit(check_vector("shapes.turn", "the axis", axis))
@@ -52,6 +54,7 @@ end
 ---@param shape table  mesh as functions of clench.shapes return it
 ---@param factor number|number[]  > 0
 ---@return table mesh
+---@effect reads
 function place.scale(shape, factor)
   shape = mesh.check(shape, "shapes.scale")
   factor = vector.list(factor)
@@ -68,6 +71,7 @@ end
 ---@param shape table  mesh as functions of clench.shapes return it
 ---@param axis "x"|"y"|"z"  axis whose coordinates change sign
 ---@return table mesh
+---@effect reads
 function place.mirror(shape, axis)
   shape = mesh.check(shape, "shapes.mirror")
   local place_of = ({x = 1, y = 2, z = 3})[axis]

@@ -28,6 +28,7 @@ end
 ---@option rounding? number [m, >= 0] = 0  radius of the rims
 ---@option segments? integer [1 to 64] = 4  segments per rounding
 ---@return table mesh
+---@effect reads
 return function(options)
   local o = read_options("prism", options, {"outline", "height"})
   local outline, height = o:points("outline", 3, 2), o:get "height"

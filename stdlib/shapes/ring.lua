@@ -6,6 +6,7 @@ local read_options = require "clench.shapes.options"
 ---@option radius number [m, > 0]  radius of the circle
 ---@option segments? integer [3 to 4096] = 32  number of points
 ---@return number[][] points
+---@effect reads
 return function(options)
   local o = read_options("ring", options, {"radius"})
   local radius, segments = o:get "radius", o:get "segments"

@@ -23,6 +23,7 @@ end
 ---@option rounding? number [m, > 0]  radius of the edges, a tenth of the smallest size by default
 ---@like clench.shapes.box  segments
 ---@return table mesh
+---@effect reads
 return function(options)
   local o = read_options("rounded_box", options, {"x", "y", "z"})
   local x, y, z = o:get "x", o:get "y", o:get "z"

@@ -39,6 +39,7 @@ end
 ---@option radius number [m, > 0]  radius of the sphere
 ---@option subdivisions? integer [0 to 7] = 3  number of subdivisions; the mesh has 20 * 4^subdivisions triangles
 ---@return table mesh
+---@effect reads
 return function(options)
   local o = read_options("sphere", options, {"radius"})
   local radius, subdivisions = o:get "radius", o:get "subdivisions"

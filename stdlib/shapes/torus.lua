@@ -9,6 +9,7 @@ local revolve = require "clench.shapes.revolve"
 ---@option segments? integer [3 to 4096] = 48  segments around the axis
 ---@option sides? integer [3 to 1024] = 24  segments around the tube
 ---@return table mesh
+---@effect reads
 return function(options)
   local o = read_options("torus", options, {"radius", "tube"})
   local radius, tube = o:get "radius", o:get "tube"

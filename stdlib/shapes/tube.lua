@@ -121,6 +121,7 @@ end
 ---@option sides? integer [3 to 1024] = 24  number of segments of a round section
 ---@option steps? integer [2 to 64] = 6  number of steps of a round end
 ---@return table mesh
+---@effect reads
 return function(options)
   local o = read_options("tube", options, {"path"})
   local path, closed = o:points("path", 2, 3), o:get "closed"

@@ -7,6 +7,7 @@ local mesh = require "clench.shapes.mesh"
 --- parts (the engine counts windings), but volume and mass count overlaps twice.
 ---@param parts table[]  one or more meshes
 ---@return table mesh
+---@effect reads
 return function(parts)
   if type(parts) ~= "table" or #parts == 0 then
     raise("shapes.union: expected a list of shapes, got " .. (type(parts) == "table" and "none" or described(parts)))

@@ -11,7 +11,9 @@
 --- A line is `name? type [unit, range] = default`, then two spaces and prose. A range is any of `>= 0`, `> 0`, `<= 1`, `< 1` and `1 to 1000`; other text in the
 --- brackets is the unit. An @option belongs to the preceding @param, a name with a dot to that option. Short options may be given in the type instead,
 --- `{speed?: number}`, with `speed: prose` separated by semicolons. `@like clench.plan.anneal  seed, world` adds these options of another entry, or all of its
---- options if none is named, to the preceding @param. A field has `@type type [unit, range]`. @effect is `reads`, `edits`, `files` or `long`.
+--- options if none is named, to the preceding @param. A field has `@type type [unit, range]`.
+--- @effect is `reads` (changes nothing), `edits` (changes a world or another value, or acts on a device), `files` (may read or write files) or `long` (takes
+--- long, and can run as a job); `long, files` is both. A type `index` is the number of an element, from 1.
 local raise = require "clench.raise"
 local signature = {}
 
@@ -180,8 +182,18 @@ add["return"] = function(parsed, head, prose)
 end
 
 function add.effect(parsed, head)
-  if not effects[head] then raise(("signature: an effect is reads, edits, files or long, got '%s'"):format(head)) end
-  parsed.effect = head
+  local first, also = head:match "^(%l+),? ?(%l*)$"
+  if not effects[first] or also ~= "" and also ~= "files" then
+    raise(("signature: an effect is reads, edits, files or long, or one of these and files, got '%s'"):format(head))
+  end
+  parsed.effect, parsed.files = first, (first == "files" or also == "files") or nil
+end
+
+--- "long, files": the effect of an entry as its doc states it.
+---@param parsed table  of signature.parse
+---@return string
+function signature.effect_text(parsed)
+  return parsed.effect .. (parsed.files and parsed.effect ~= "files" and ", files" or "")
 end
 
 -- "> code" alone prepares an example; "> code  --> result" is one
@@ -218,16 +230,17 @@ function signature.parse(text)
   return parsed
 end
 
---- The LuaCATS type of a parameter whose options have separate lines: "{speed?: number}".
+--- The LuaCATS type of a parameter whose options have separate lines: "{speed?: number}" for "table", "{speed?: number}[]" for "table[]".
 ---@param item table  of signature.parse
 ---@return string
 function signature.type_of(item)
-  if not item.fields or item.type ~= "table" then return item.type end
+  local before, after = item.type:match "^(.-)%f[%a]table%f[%A](.*)$"
+  if not item.fields or not before then return item.type end
   local parts = {}
   for i, field in ipairs(item.fields) do
     parts[i] = ("%s%s: %s"):format(field.name, field.optional and "?" or "", signature.type_of(field))
   end
-  return "{" .. table.concat(parts, ", ") .. "}"
+  return ("%s{%s}%s"):format(before, table.concat(parts, ", "), after)
 end
 
 local function value_text(value)

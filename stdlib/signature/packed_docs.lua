@@ -49,8 +49,9 @@ function packed_docs.functions(files)
         for name in entry.name:gmatch "[^.]+" do value = value[name] end
         return value
       end)
+      local info = ok and type(offered) == "function" and debug.getinfo(offered, "S")
       -- another unit of the folder may have a function of that name that is not public
-      if ok and type(offered) == "function" and debug.getinfo(offered, "S").linedefined == entry.line then
+      if info and info.linedefined == entry.line and ("/" .. info.source):sub(-#file.path - 1) == "/" .. file.path then
         entry.fn = offered
         list[#list + 1] = entry
       end

@@ -75,6 +75,7 @@ end
 ---@option measures? string[] = {"epsilon", "volume"}  names of measures, as in grasp:quality
 ---@option labels? string[]  one per grasp
 ---@return {measures: string[], values: table, best: table, labels: string[]?, chart: function} # values[measure][i] of grasp i; best[measure]: index of the best grasp, that with the largest value, or with the smallest for measures like gravity_effort
+---@effect long
 --- > c = clench.study.compare({grasp, grasp}, {labels = {"one", "two"}})
 --- > c.values.epsilon[2] == grasp:quality "epsilon", c.best.epsilon  --> true, 1
 --- > c:chart {width = 300, height = 200}  --> plot of 300 x 200 pixels

@@ -14,6 +14,7 @@ local verdict = require "clench.study.motion.verdict"
 ---@like clench.study.shake  mass, gravity, max_distance, max_angle, grip, grip_seconds, settle, friction_share, surroundings
 ---@option grip_force? number [N, > 0, <= 1e15] = 10  sum of the normal forces
 ---@return {survived: boolean, directions: table[], min_force: number, min_time: number, held: integer, settled: table, grip: string, grip_force: number, unlimited_efforts?: string[], contacts: integer, failures: integer, protocol: string} # survived: held in all directions; directions: {direction, force [N] and time [s] at which it was lost or the test ended, moved [m], turned [rad], held}; min_force, min_time: minima over all directions
+---@effect long
 --- > clench.study.fall_off({hand = hand, object = flask, rate = 10, max_force = 2, settle = 0.1}).min_force  --> 2.0
 return function(options)
   local read = read_options("study.fall_off", options)

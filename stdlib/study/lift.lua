@@ -22,6 +22,7 @@ local ramp = 0.1  -- time to accelerate, and to decelerate [s]
 ---@option grip_force? number [N, > 0, <= 1e15]  sum of the normal forces, ten weights of the object by default
 ---@option surroundings? boolean = true  false: all bodies except hand, carrier and object are removed
 ---@return {survived: boolean, rows: table[], held: integer, settled: table, grip: string, grip_force: number, unlimited_efforts?: string[], contacts: integer, failures: integer, protocol: string} # rows: one for each of the phases "gravity", "lift" and "hold" that was reached, {phase, moved [m], turned [rad], held, time [s] at which it was lost}
+---@effect long
 --- > clench.study.lift({hand = hand, object = flask, height = 0.02, hold = 0.1, settle = 0.1, mass = 0.1}).survived  --> true
 return function(options)
   local read = read_options("study.lift", options)

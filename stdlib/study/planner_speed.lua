@@ -10,6 +10,7 @@ local all = {"contact", "potential_quality", "guided_potential_quality", "autogr
 ---@option steps? integer [1 to 1000000000] = 1000  number of steps with each energy
 ---@option seed? integer = 1  seed of the random numbers
 ---@return {energy: string, steps: integer, seconds: number, steps_per_second: number, accepted: number, in_collision: number}[]  accepted: fraction of the steps; in_collision: colliding neighbors per step
+---@effect long
 --- > rows = clench.study.planner_speed {hand = hand, object = flask, energies = {"contact"}, steps = 50}
 --- > rows[1].energy, rows[1].steps, rows[1].steps_per_second > 0  --> contact, 50, true
 --- > clench.study.planner_speed {hand = hand, object = flask, step = 5}  --> error: unknown key 'step'

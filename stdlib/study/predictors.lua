@@ -89,6 +89,7 @@ end
 ---@option shake? table  options of study.shake
 ---@option threads? integer [1 to 1024]  number of threads, all cores by default
 ---@return {rows: table[], grasps: table[], survived: integer, count: integer, failed: integer, protocol: string, chart: function, plot: function} # rows, best first: {measure, auc, low, high, curve}, without auc, low and high if all or none survived; grasps: for each grasp {survived, held, values}, or {error}; chart: bars; plot: curves
+---@effect long
 --- > p = clench.study.predictors({grasp, grasp}, {hand = hand, object = flask, measures = {"epsilon"}, shake = {seconds = 0.1, settle = 0.1}})
 --- > p.count, p.survived, p.rows[1].measure  --> 2, 2, epsilon
 return function(grasps, options)

@@ -70,6 +70,7 @@ end
 ---@option close? function  close(hand, object) instead of autograsp
 ---@option edges? integer|string  edges of the friction pyramids, as in clench.wrench_space; those of the grasp by default
 ---@return {count: integer, samples: number[], probability: number, interval: table, blocked: integer, mean: number, std: number, min: number, p05: number, median: number, p95: number, max: number} # epsilon of each sample; probability of force closure, with its 95 % confidence interval; blocked: number of samples in which the object collided with the opened hand or another body, which count as epsilon 0; p05 and p95: 5th and 95th percentiles
+---@effect long
 --- > r = clench.study.robustness(grasp, {samples = 20, friction = 0.2, normal = 0.05})
 --- > #r.samples, r.p05 <= r.median, r.interval.low <= r.probability  --> 20, true, true
 --- > clench.study.robustness(grasp, {frictoin = 0.2})  --> error: unknown key 'frictoin'

@@ -32,6 +32,7 @@ local verdict = require "clench.study.motion.verdict"
 ---@option surroundings? boolean = false  true: all other bodies stay in the world
 ---@option until_lost? boolean = false  true: the test ends after the first direction in which the object is lost
 ---@return {survived: boolean, directions: table[], held: integer, settled: table, grip: string, grip_force: number, unlimited_efforts?: string[], contacts: integer, failures: integer, protocol: string} # survived: held in all directions; directions: {direction, moved [m], turned [rad], held, time [s] at which it was lost}; held: number of directions; settled: result of gripping, {moved [m], turned [rad], held}; failures: number of time steps not solved to the tolerance; grip: "forces", "close", or "none" if no motor closes the hand; grip_force: sum of the normal forces between hand and object at rest, measured [N]; unlimited_efforts: names of motors without a limit; protocol: a sentence that describes the test
+---@effect long
 --- > verdict = clench.study.shake {hand = hand, object = flask, seconds = 0.1, settle = 0.1}
 --- > #verdict.directions, verdict.survived  --> 6, true
 --- > clench.study.shake {hand = hand, object = flask, mas = 1}  --> error: unknown key 'mas'

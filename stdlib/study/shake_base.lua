@@ -20,6 +20,7 @@ local axes = {{"x", clench.vec3(1, 0, 0)}, {"y", clench.vec3(0, 1, 0)}, {"z", cl
 ---@like clench.study.lift  grip_force
 ---@like clench.study.shake  surroundings
 ---@return {survived: boolean, axes: table[], held: integer, settled: table, grip: string, grip_force: number, unlimited_efforts?: string[], contacts: integer, failures: integer, protocol: string} # axes: {axis, moved [m], turned [rad], held, time [s] at which it was lost}
+---@effect long
 --- > clench.study.shake_base({hand = hand, object = flask, seconds = 0.4, settle = 0.1, mass = 0.1, acceleration = 2}).survived  --> true
 return function(options)
   local read = read_options("study.shake_base", options)

@@ -1,5 +1,4 @@
 --- Dialogs of commands, made from their parameters.
-local keys = require "clench.view.keys"
 local leave = require "clench.view.leave"
 local results = require "clench.view.planner_results"
 local variables = require "clench.view.planner_variables"
@@ -93,6 +92,9 @@ function dialog.open(view, command)
 end
 
 function dialog.fill(view, command)
+  local can, reason = true, nil
+  if command.enabled then can, reason = command.enabled(view.session) end
+  if not can then return view:fail(("%s cannot run now%s"):format((command.label or command.name):gsub("…", ""), reason and ": " .. reason or "")) end
   local asks = (command.label or ""):find "…"
   for _, parameter in ipairs(command.parameters or {}) do
     if not parameter.optional and parameter.default == nil then asks = true end
@@ -150,5 +152,4 @@ function dialog.draw(view, ui)
   end
 end
 
-dialog.shown = keys.shown
 return dialog

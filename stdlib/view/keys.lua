@@ -39,6 +39,7 @@ end
 
 --- A shortcut for display: "Ctrl+Shift+Z".
 function keys.shown(shortcut)
+  if shortcut == "shift+/" then return "?" end
   return shortcut and (shortcut:gsub("(%l)(%l*)", function(first, rest) return first:upper() .. rest end)) or ""
 end
 

@@ -1,19 +1,22 @@
 --- The arrangement of tool bar, panels and status bar around the picture.
 local autosave = require "clench.view.autosave"
+local bindings = require "clench.view.bindings"
 local compare = require "clench.view.compare"
 local context = require "clench.view.context"
 local dialog = require "clench.view.dialog"
-local keys = require "clench.view.keys"
+local help = require "clench.view.help"
 local leave = require "clench.view.leave"
 local menus = require "clench.view.menus"
+local projections = require "clench.view.projections"
 local selection = require "clench.view.selection"
+local splitters = require "clench.view.splitters"
 local layout = {}
 
-local panel_width, bottom_height, bar_height = 264, 190, 36  -- [pixels]
+local bar_height = 36  -- [pixels]
 local tall_share = 0.72  -- fraction of the height of its column
 local user_panels = {}  -- panels that scripts have added, by name and in order
 
-local own_panels = {"tree", "quality", "inspector", "jobs", "eigengrasps", "wrench_space", "friction", "virtual_contacts", "forces", "author", "display", "console", "time_line", "history", "gallery", "plots"}
+local own_panels = {"tree", "quality", "inspector", "jobs", "eigengrasps", "wrench_space", "friction", "virtual_contacts", "forces", "author", "sensors", "display", "console", "time_line", "history", "gallery", "plots"}
 
 --- The panels of a view: built-in ones, and those of the user.
 function layout.panels()
@@ -117,7 +120,7 @@ local function command_button(view, ui, label, name)
   ui:disabled(not enabled, function(ui)
     if ui:button(label) then dialog.open(view, command) end
   end)
-  ui:tooltip(("%s%s\nsession:run(%q)"):format(command.label or name, command.shortcut and "  " .. keys.shown(command.shortcut) or "", name))
+  ui:tooltip(("%s  %s\nsession:run(%q)"):format(command.label or name, bindings.shown(view, name), name))
   ui:same_line()
 end
 
@@ -140,9 +143,9 @@ end
 
 local function draw_bar(view, ui, y, width)
   ui:window("tool bar", {x = 0, y = y, width = width, height = bar_height, title = false, scroll = false}, function(ui)
-    for i, tool in ipairs(view.tools) do
+    for _, tool in ipairs(view.tools) do
       if ui:button(tool .. "##tool", {selected = view.current_tool == tool}) then view.current_tool = tool end
-      ui:tooltip(tool .. " (" .. i .. ")")
+      ui:tooltip(("%s  %s"):format(tool, bindings.shown(view, "tool " .. tool)))
       ui:same_line()
     end
     for _, entry in ipairs {{"Undo", "edit.undo"}, {"Redo", "edit.redo"}, {"Close hand", "grasp.autograsp"}, {"Open hand", "grasp.open"}} do
@@ -189,27 +192,6 @@ local function draw_question(view, ui)
   autosave.draw(view, ui)
 end
 
-local function draw_help(view, ui)
-  if view.shows_about and not ui:window("About", {width = 0, x = 0, movable = true, can_close = true}, function(ui)
-    ui:text("Clench " .. clench.version)
-    ui:text "Simulates, evaluates and plans robotic grasps."
-  end) then view.shows_about = nil end
-  if view.shows_manual and not ui:window("Manual", {width = 0, movable = true, can_close = true}, function(ui)
-    ui:text "docs/guide/viewer.md describes the viewer; help() in the console describes a function."
-  end) then view.shows_manual = nil end
-  if view.shows_keys and not ui:window("Keys", {x = 300, y = 100, width = 420, height = 460, movable = true, resizable = true, can_close = true}, function(ui)
-    ui:table("keys", {"Key", "Command"}, {}, function(ui)
-      for _, own in ipairs {{"Ctrl+P", "Command palette"}, {"Ctrl+Q", "Exit"}, {"F9", "Show or hide panels"}, {"Home", "Point the camera at the grasp"}, {"1 2 3 4 5", "Tools"}, {"F", "Seek the point under the mouse"}, {"F1 F2 F3 F4", "Bookmarks of the camera; with Shift: store"}} do
-        ui:next_column() ui:text(own[1]) ui:next_column() ui:text(own[2])
-      end
-      for _, name in ipairs(view.session.order) do
-        local command = view.session.commands[name]
-        if command.shortcut then ui:next_column() ui:text(keys.shown(command.shortcut)) ui:next_column() ui:text(command.label or name) end
-      end
-    end)
-  end) then view.shows_keys = nil end
-end
-
 --- Draws all panels.
 function layout.draw(view, ui)
   local width, height = ui.size[1], ui.size[2]
@@ -218,15 +200,21 @@ function layout.draw(view, ui)
   draw_bar(view, ui, menu_height, width)
   local status_height = 28
   local top = menu_height + bar_height
-  local bottom = height - status_height - bottom_height
-  draw_column(view, ui, "left", 0, top, panel_width, bottom - top)
-  draw_column(view, ui, "right", width - panel_width, top, panel_width, bottom - top)
-  draw_bottom(view, ui, 0, bottom, width, bottom_height)
+  local left, right, below = splitters.size(view, "left"), splitters.size(view, "right"), splitters.size(view, "bottom")
+  local bottom = height - status_height - below
+  draw_column(view, ui, "left", 0, top, left, bottom - top)
+  draw_column(view, ui, "right", width - right, top, right, bottom - top)
+  draw_bottom(view, ui, 0, bottom, width, below)
+  view.edges = {left = {at = left, from = top, to = bottom}, right = {at = width - right, from = top, to = bottom}, bottom = {at = bottom, from = left, to = width - right}}
+  for name in pairs(view.edges) do
+    if #placed(view, name) == 0 then view.edges[name] = nil end
+  end
   draw_status(view, ui, height - status_height, width, status_height)
   dialog.draw(view, ui)
   compare.draw(view, ui)
+  projections.draw_windows(view, ui)
   draw_question(view, ui)
-  draw_help(view, ui)
+  help.draw(view, ui)
 end
 
 return layout

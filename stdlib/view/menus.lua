@@ -1,16 +1,17 @@
 --- The menu bar: menus of the session's commands, in the order of GraspIt!, and those of the view itself.
+local bindings = require "clench.view.bindings"
 local dialog = require "clench.view.dialog"
-local keys = require "clench.view.keys"
 local navigation = require "clench.view.navigation"
 local preferences = require "clench.view.preferences"
 local units = require "clench.view.units"
+local with_ending = require "clench.session.with_ending"
 local menus = {}
 
 local order = {"File", "Edit", "Element", "Grasp", "Dynamics", "Jobs"}
 
 local function draw_command(view, ui, command)
   local enabled = not command.enabled or (command.enabled(view.session)) and true or false
-  if ui:menu_item(command.label or command.name, {shortcut = keys.shown(command.shortcut), enabled = enabled}) then dialog.open(view, command) end
+  if ui:menu_item(command.label or command.name, {shortcut = bindings.shown(view, command.name), enabled = enabled}) then dialog.open(view, command) end
 end
 
 local own = {
@@ -23,38 +24,40 @@ local own = {
       end)
     end)
     ui:separator()
-    if ui:menu_item("Save Image…") then view.ask = {title = "Save Image", text = "picture.png", done = function(path) view:screenshot {path = path, panels = false} end} end
+    if ui:menu_item("Save View…") then
+      view.ask = {title = "Save View", text = "picture.png", done = function(path) view:screenshot {path = with_ending(path, ".png"), panels = false} end}
+    end
     if ui:menu_item("Save Session as Script…") then view.ask = {title = "Save Session as Script", text = "session.lua", done = function(path) view:save_script(path) end} end
-    if ui:menu_item("Exit", {shortcut = "Ctrl+Q"}) then view.wants_exit = true end
+    if ui:menu_item("Exit", {shortcut = bindings.shown(view, "exit")}) then view.wants_exit = true end
   end,
   Element = function(view, ui)
-    for i, tool in ipairs(view.tools) do
-      if ui:menu_item(tool, {shortcut = tostring(i), selected = view.current_tool == tool}) then view.current_tool = tool end
+    for _, tool in ipairs(view.tools) do
+      if ui:menu_item(tool, {shortcut = bindings.shown(view, "tool " .. tool), selected = view.current_tool == tool}) then view.current_tool = tool end
     end
     ui:separator()
   end,
 }
 
 local function view_menu(view, ui)
-  if ui:menu_item("Home", {shortcut = "Home"}) then view:home() end
+  if ui:menu_item("Home", {shortcut = bindings.shown(view, "home")}) then view:home() end
   if ui:menu_item("View All") then view:home(true) end
   if ui:menu_item("Orthographic", {selected = view.camera.orthographic ~= nil}) then view:toggle_orthographic() end
-  navigation.draw_menu(view, ui)
+  navigation.draw_menu(view, ui, function(name) return bindings.shown(view, name) end)
   ui:separator()
   ui:menu("Show Panel", function(ui)
     for _, panel in ipairs(view.panels) do
       if ui:menu_item(panel.name, {selected = not view.hidden[panel.name]}) then view.hidden[panel.name] = not view.hidden[panel.name] or nil end
     end
   end)
-  if ui:menu_item("Panels", {shortcut = "F9", selected = view.panels_visible}) then view.panels_visible = not view.panels_visible end
+  if ui:menu_item("Panels", {shortcut = bindings.shown(view, "panels"), selected = view.panels_visible}) then view.panels_visible = not view.panels_visible end
   ui:separator()
   units.menu(view, ui)
   if ui:menu_item("Dark Theme", {selected = view.dark}) then view:set_theme(not view.dark) end
 end
 
 local function help_menu(view, ui)
-  if ui:menu_item("Command Palette…", {shortcut = "Ctrl+P"}) then view:open_palette() end
-  if ui:menu_item("Keys…", {shortcut = "?"}) then view.shows_keys = true end
+  if ui:menu_item("Command Palette…", {shortcut = bindings.shown(view, "palette")}) then view:open_palette() end
+  if ui:menu_item("Keys…", {shortcut = bindings.shown(view, "keys")}) then view.shows_keys = true end
   if ui:menu_item("Manual…") then view.shows_manual = true end
   if ui:menu_item("About…") then view.shows_about = true end
 end

@@ -3,10 +3,10 @@ local camera = require "clench.view.camera"
 local navigation = {}
 
 navigation.styles = {"Original", "Blender"}
+navigation.bookmark_count = 4
 
 local orbit_speed = math.pi / 400  -- [rad per pixel]
 local zoom_speed = 0.005  -- logarithm of the distance per pixel
-local bookmark_count = 4
 
 -- effect of a drag, by style: orbit, pan or zoom
 local function action_of(view, mouse, ctrl, shift)
@@ -70,31 +70,23 @@ function navigation.set_home(view)
   view.status = "Home is here now"
 end
 
---- Handles a key of navigation.
----@return boolean handled
-function navigation.key(view, shortcut)
-  local number = tonumber(shortcut:match "^f(%d)$")
-  if number and number <= bookmark_count then navigation.recall(view, number) return true end
-  number = tonumber(shortcut:match "^shift%+f(%d)$")
-  if number and number <= bookmark_count then navigation.store(view, number) return true end
-  if shortcut == "f" then
-    if not view.ui.wants_mouse then navigation.seek_pixel(view, view.ui.mouse.x, view.ui.mouse.y) end
-    return true
-  end
-  return false
+--- Seeks what lies under the mouse, unless that is a panel.
+function navigation.seek_mouse(view)
+  if not view.ui.wants_mouse then navigation.seek_pixel(view, view.ui.mouse.x, view.ui.mouse.y) end
 end
 
 --- Draws the entries of the View menu.
-function navigation.draw_menu(view, ui)
+---@param shown fun(name: string): string  the key of an action, for display
+function navigation.draw_menu(view, ui, shown)
   if ui:menu_item("Set Home") then navigation.set_home(view) end
-  if ui:menu_item("Seek", {shortcut = "F", selected = view.seeks or false}) then view.seeks = true end
+  if ui:menu_item("Seek", {shortcut = shown "seek", selected = view.seeks or false}) then view.seeks = true end
   ui:menu("Bookmarks", function(ui)
-    for i = 1, bookmark_count do
-      if ui:menu_item("Store Bookmark " .. i, {shortcut = "Shift+F" .. i}) then navigation.store(view, i) end
+    for i = 1, navigation.bookmark_count do
+      if ui:menu_item("Store Bookmark " .. i, {shortcut = shown("store " .. i)}) then navigation.store(view, i) end
     end
     ui:separator()
-    for i = 1, bookmark_count do
-      if ui:menu_item("Recall Bookmark " .. i, {shortcut = "F" .. i, enabled = view.bookmarks[i] ~= nil}) then navigation.recall(view, i) end
+    for i = 1, navigation.bookmark_count do
+      if ui:menu_item("Recall Bookmark " .. i, {shortcut = shown("recall " .. i), enabled = view.bookmarks[i] ~= nil}) then navigation.recall(view, i) end
     end
   end)
   ui:menu("Navigation", function(ui)

@@ -1,6 +1,6 @@
 --- The command palette: all commands by a few letters of their names.
+local bindings = require "clench.view.bindings"
 local dialog = require "clench.view.dialog"
-local keys = require "clench.view.keys"
 local palette = {}
 
 -- do the letters of `text` occur in `label` in order? Returns a rank, lower for better matches
@@ -45,8 +45,8 @@ function palette.draw(view, ui)
     ui:child("matches", {}, function(ui)
       for i, match in ipairs(list) do
         if i > 12 then break end
-        local shortcut = match.command.shortcut and "    " .. keys.shown(match.command.shortcut) or ""
-        if ui:selectable(match.label .. shortcut .. "##" .. match.command.name, i == (state.index or 1)) then entered, state.index = true, i end
+        local shortcut = bindings.shown(view, match.command.name)
+        if ui:selectable(match.label .. (shortcut ~= "" and "    " .. shortcut or "") .. "##" .. match.command.name, i == (state.index or 1)) then entered, state.index = true, i end
       end
     end)
     if entered then

@@ -1,6 +1,10 @@
---- Settings that the viewer stores from one run to the next: theme, units, hidden panels, size of the window, recent files.
+--- Settings that the viewer stores from one run to the next: theme, units, navigation, keys, panels that are hidden or in front, sizes of the window
+--- and of panels, recent files.
 local error_text = require "clench.error_text"
+local keys = require "clench.view.keys"
 local leave = require "clench.view.leave"
+local navigation = require "clench.view.navigation"
+local splitters = require "clench.view.splitters"
 local user_files = require "clench.view.user_files"
 local preferences = {}
 
@@ -14,9 +18,13 @@ local function sorted_keys(set)
   return list
 end
 
+-- a table by names, which is no list if it is empty
+local function named(values) return next(values) and values or nil end
+
 local function text_of(view)
   local size = view.ui.size
-  return clench.json.encode({dark = view.dark, units = view.units, hidden = sorted_keys(view.hidden),
+  return clench.json.encode({dark = view.dark, units = view.units, hidden = sorted_keys(view.hidden), navigation = view.navigation,
+                             keys = named(view.bindings), sizes = view.sizes, front = named(view.front),
                              size = {math.tointeger(size[1]), math.tointeger(size[2])}, recent = view.recent}, {indent = 2}) .. "\n"
 end
 
@@ -51,12 +59,32 @@ function preferences.size()
   return size
 end
 
+-- the values by name that fulfil a condition
+local function values_of(said, accepts)
+  local values = {}
+  for name, value in pairs(type(said) == "table" and said or {}) do
+    if type(name) == "string" and accepts(value) then values[name] = value end
+  end
+  return values
+end
+
+local function apply_arrangement(view, said)
+  for _, style in ipairs(navigation.styles) do
+    if said.navigation == style then view.navigation = style end
+  end
+  view.bindings = values_of(said.keys, function(value) return value == false or type(value) == "string" and (pcall(keys.codes, value)) end)
+  view.front = values_of(said.front, function(value) return type(value) == "string" end)
+  local sizes = values_of(said.sizes, function(value) return type(value) == "number" and value >= splitters.least and value <= 8192 end)
+  for name in pairs(view.sizes) do view.sizes[name] = sizes[name] or view.sizes[name] end
+end
+
 local function apply(view, said)
   if type(said.dark) == "boolean" and not view.has_theme then view:set_theme(said.dark) end
   local units = type(said.units) == "table" and said.units or {}
   if units.length == "m" or units.length == "mm" then view.units.length = units.length end
   for _, name in ipairs(texts_of(said.hidden)) do view.hidden[name] = true end
   view.recent = texts_of(said.recent)
+  apply_arrangement(view, said)
 end
 
 --- Records a file that was opened.

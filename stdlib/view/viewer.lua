@@ -1,23 +1,21 @@
 --- The viewer: a session's world in a window or off-screen, with menus, panels and tools. Every action is a command of the session.
 local autosave = require "clench.view.autosave"
+local bindings = require "clench.view.bindings"
 local camera = require "clench.view.camera"
 local class = require "clench.class"
 local described = require "clench.described"
-local dialog = require "clench.view.dialog"
 local drop = require "clench.view.drop"
 local echo = require "clench.view.echo"
 local error_text = require "clench.error_text"
 local follow = require "clench.view.follow"
 local input = require "clench.view.input"
-local keys = require "clench.view.keys"
 local layout = require "clench.view.layout"
 local loop_task = require "clench.loop_task"
-local menus = require "clench.view.menus"
-local navigation = require "clench.view.navigation"
 local palette = require "clench.view.palette"
 local preferences = require "clench.view.preferences"
 local raise = require "clench.raise"
 local replay = require "clench.view.replay"
+local splitters = require "clench.view.splitters"
 local tools = require "clench.view.tools"
 local user_files = require "clench.view.user_files"
 
@@ -97,46 +95,17 @@ function Viewer:open_palette() self.palette = {text = "", index = 1} end
 --- Writes the session as a script.
 function Viewer:save_script(path) clench.files.save_text(path, self.session:script() .. "\n") end
 
-local function own_key(self, shortcut)
-  if shortcut == "ctrl+q" then self.wants_exit = true return true end
-  if shortcut == "ctrl+p" then self:open_palette() return true end
-  if shortcut == "f9" then self.panels_visible = not self.panels_visible return true end
-  if navigation.key(self, shortcut) then return true end
-  if shortcut == "home" then self:home() return true end
-  if shortcut == "escape" then
-    if self.palette then self.palette = nil elseif self.press then self.press = nil self.session:cancel_gesture() end
-    return true
-  end
-  local number = tonumber(shortcut)
-  if number and tools.names[number] then self.current_tool = tools.names[number] return true end
-end
-
--- shortcuts, unless a text is being typed
-local function handle_keys(self)
-  if self.ui.wants_text then
-    for _, press in ipairs(self.ui.pressed) do
-      if keys.shortcut(press) == "escape" then self.palette = nil end
-    end
-    return
-  end
-  for _, press in ipairs(self.ui.pressed) do
-    local shortcut = keys.shortcut(press)
-    if shortcut and not own_key(self, shortcut) then
-      for _, name in ipairs(self.session.order) do
-        local command = self.session.commands[name]
-        if command.shortcut == shortcut then dialog.open(self, command) break end
-      end
-    end
-  end
+-- of another world nothing is kept
+local function follow_world(self)
+  local world = self.session.world
+  if not world or self.shown_world == world then return end
+  self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author = world, nil, {}, nil, nil, nil
+  self:home()
 end
 
 local function draw_world(self, ui)
   local world = self.session.world
-  if not world then return end
-  if self.shown_world ~= world then
-    self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author = world, nil, {}, nil, nil, nil
-    self:home()
-  end
+  if not (world and self.picture_visible) then return end
   local c = self.camera
   local options = {eye = c.eye, target = c.target, up = c.up, field_of_view = c.field_of_view, orthographic = c.orthographic}
   for name, value in pairs(self.display) do options[name] = value end
@@ -167,14 +136,17 @@ function Viewer:frame()
   local passed = time_since_last(self)
   replay.advance(self, passed)
   self.ui:frame(passed, function(ui)
+    follow_world(self)
+    if not splitters.update(self) then tools.update(self) end  -- before the world is drawn: the frame that takes input shows its effect
+    follow_world(self)
     draw_world(self, ui)
     if self.panels_visible then
       tools.draw(self, ui)
+      splitters.draw(self, ui)
       layout.draw(self, ui)
     end
     palette.draw(self, ui)
-    handle_keys(self)
-    tools.update(self)
+    bindings.update(self)
   end)
   drop(self)
 end
@@ -272,7 +244,7 @@ return function(options)
   local session = options.session
   local view = setmetatable({
     session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m", angle = "rad"}, edits = {}, front = {}, display = {},
-    panels_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
+    panels_visible = true, picture_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, bindings = {}, edges = {}, sizes = {left = splitters.default.left, right = splitters.default.right, bottom = splitters.default.bottom}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
   }, Viewer)
   local size = options.size or options.window and preferences.size()
   view.ui = clench.ui {size = size, window = options.window, title = options.title, dark = options.dark, scale = options.scale}

@@ -18,6 +18,10 @@ empty:run(0.1)
 local readers = {
   ["clench.file_kind"] = clench.file_kind,
   ["clench.convert"] = function(path) clench.convert(path, inside .. "/x.obj") end,
+  ["clench.convert{folder}"] = function(path) clench.convert(inside .. "/names_file.urdf", inside .. "/x.xml", {folder = path:match "^(.*)/"}) end,
+  ["clench.convert{package}"] = function(path) clench.convert(inside .. "/names_package.urdf", inside .. "/x.xml", {package = path:match "^(.*)/"}) end,
+  ["clench.convert{eigengrasps}"] = function(path) clench.convert(inside .. "/plain.urdf", inside .. "/x.xml", {eigengrasps = path}) end,
+  ["clench.convert{virtual_contacts}"] = function(path) clench.convert(inside .. "/plain.urdf", inside .. "/x.xml", {virtual_contacts = path}) end,
   ["clench.load"] = clench.load,
   ["clench.load{folder}"] = function(path) clench.load(inside .. "/names_file.urdf", {folder = path:match "^(.*)/"}) end,
   ["clench.load{package}"] = function(path) clench.load(inside .. "/names_package.urdf", {package = path:match "^(.*)/"}) end,
@@ -61,6 +65,14 @@ local writers = {
   ["clench.files.check_writable"] = clench.files.check_writable,
   ["clench.export_html"] = function(path) clench.export_html(hand.world, path .. ".html") end,
   ["clench.devices.save_calibration"] = function(path) clench.devices.save_calibration(path, {slopes = {{1}}, intercepts = {0}}) end,
+  ["clench.port.listen"] = function(path) clench.port.listen {path = path}:close() end,
+  ["clench serve --token-file"] = function(path) require "clench.save_secret"(path, "token") end,
+  ["port:record"] = function(path)
+    local a, b = clench.port.pair()
+    a:record(path)
+    a:close()
+    b:close()
+  end,
   ["clench.files.save_arrays"] = function(path) clench.files.save_arrays(path, {a = {1}}) end,
   ["clench.files.save_object_contacts"] = function(path) clench.files.save_object_contacts(path, {}) end,
   ["clench.files.save_pregrasps"] = function(path) clench.files.save_pregrasps(path, {}) end,
@@ -138,6 +150,21 @@ local count = 0
 for _ in pairs(found) do count = count + 1 end
 assert(count > 25, count)
 
+-- the descriptions say the same: these are the entries with the effect `files`, apart from those that touch files of their own only
+local own_files = {["clench.catalog"] = true, ["clench.test.path"] = true, ["clench.test.folder"] = true, ["clench.test.run_file"] = true}
+local variables = {}
+for _, class in ipairs(all.classes) do variables[class.name] = class.variable end
+local tried = {}
+for _, list in ipairs {readers, writers} do
+  for name in pairs(list) do tried[name:gsub("{.*", ""):gsub("^(%w+):", function(class) return (variables[class] or class) .. ":" end)] = true end
+end
+local different = {}
+for _, entry in ipairs(clench.describe()) do
+  local touches = entry.files == true and not own_files[entry.name]
+  if touches ~= (tried[entry.name] == true) then different[#different + 1] = entry.name end
+end
+assert(#different == 0, "the effect of these entries does not fit this list: " .. table.concat(different, ", "))
+
 -- --- reading ---
 
 local paths = {outside .. "/file", inside .. "/../out/file", inside .. "/link/file", inside .. "/linked", outside .. "/none"}
@@ -168,5 +195,15 @@ for name, write in pairs(writers) do
     local done, problem = pcall(write, outside .. "/written/" .. name:gsub("%W", "_"))
     assert(done, ("%s: %s"):format(name, tostring(problem)))
   end
+end
+-- --- ports: any device or socket that a script names, but none through a link inside the folder ---
+
+local line <close> = clench.port.pty()
+clench.port.serial {path = line.path}:close()
+local listener <close> = clench.port.listen {path = outside .. "/written/socket"}
+clench.port.connect(outside .. "/written/socket"):close()
+for _, open in ipairs {function(path) clench.port.serial {path = path} end, clench.port.connect} do
+  local opened, reason = pcall(open, inside .. "/link/written/socket")
+  assert(not opened and tostring(reason):find("a link leads out of", 1, true), tostring(reason))
 end
 print "all confined"

@@ -54,11 +54,10 @@ TEST_CASE("wrong options of plan are reported in one sentence, before the search
   said("--count 1e3", "--count: expected a whole number from 1 to 1000000, got '1e3'");
   said("--count abc", "--count: expected a whole number from 1 to 1000000, got 'abc'");
   said("--seconds -1", "--seconds");
-  said("--seed x",
-       "--seed: expected a whole number from -9223372036854775808 to 9223372036854775807, got 'x'");
+  said("--seed x", "--seed: expected a whole number, got 'x'");
   said("--seed +-5", "got '+-5'");
-  said("--seed 99999999999999999999", "to 9223372036854775807, got '99999999999999999999'");
-  said("--contacts finger", "--contacts: finger not in {");
+  said("--seed 99999999999999999999", "--seed: expected a whole number, got '99999999999999999999'");
+  said("--contacts finger", "--contacts: expected 'fingertip', 'power' or 'any', got 'finger'");
   said("--threads 0", "--threads: expected a whole number from 1 to 1024, got '0'");
   said("--mass none", "--mass: expected a mass in kg, got 'none'");
   said("--mass 1e20", "--mass: expected a number from 1e-12 to 1e+12 [kg], got 1e+20");
@@ -275,7 +274,7 @@ TEST_CASE("--force-ratio limits the grip forces of verified grasps") {
     const auto refused = run(plan + "--force-ratio " + bad);
     CHECK(refused.code == 2);
     CHECK(has(refused.out,
-              "--force-ratio: expected a number above 0, got '" + std::string(bad) + "'"));
+              "--force-ratio: expected a number > 0, got '" + std::string(bad) + "'"));
   }
   const auto both = run(plan + "--force-ratio 20 --no-verify");
   CHECK(both.code == 2);
@@ -311,7 +310,7 @@ TEST_CASE("a hand without motors has no verified grasps, and plan names its join
   }
   const auto refused = run(barrett + "--max-effort 0");
   CHECK(refused.code == 2);
-  CHECK(has(refused.out, "--max-effort: expected a number above 0, got '0'"));
+  CHECK(has(refused.out, "--max-effort: expected a number > 0, got '0'"));
   const auto unused = run(barrett + "--max-effort 5 --no-verify");
   CHECK(unused.code == 2);
   CHECK(has(unused.out,

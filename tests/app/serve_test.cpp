@@ -8,54 +8,12 @@
 #include <fstream>
 #include <thread>
 
+#include "background.h"
 #include "command.h"
 
 using namespace clench::test;
 
 namespace {
-
-// a server in the background, and its output
-class Served {
- public:
-  explicit Served(const std::string& arguments) {
-    int ends[2];
-    REQUIRE(pipe(ends) == 0);
-    process_ = fork();
-    if (process_ == 0) {
-      dup2(ends[1], 1);
-      dup2(ends[1], 2);
-      close(ends[0]);
-      execl("/bin/sh", "sh", "-c", fmt::format("exec {} {}", CLENCH_COMMAND, arguments).c_str(),
-            nullptr);
-      _exit(127);
-    }
-    close(ends[1]);
-    output_ = ends[0];
-    char byte = 0;
-    while (read(output_, &byte, 1) == 1 && byte != '\n') line_ += byte;
-  }
-  ~Served() {
-    if (process_ > 0) end(SIGKILL);
-    close(output_);
-  }
-
-  const std::string& line() const { return line_; }
-  int port() const { return std::atoi(line_.c_str() + line_.rfind(':') + 1); }
-
-  // the exit code after a signal, or minus the signal that ended it
-  int end(int signal) {
-    kill(process_, signal);
-    int status = 0;
-    waitpid(process_, &status, 0);
-    process_ = 0;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  }
-
- private:
-  pid_t process_ = 0;
-  int output_ = -1;
-  std::string line_;
-};
 
 // replies to some lines, read until the server has sent the given number
 std::string ask_port(int port, const std::string& text, int lines) {
@@ -80,7 +38,7 @@ std::string ask_port(int port, const std::string& text, int lines) {
 
 TEST_CASE("a world is served until a signal ends it") {
   for (const int signal : {SIGTERM, SIGINT}) {
-    Served server("serve worlds/barrett_mug.wld --root . --port 0");
+    Background server("serve worlds/barrett_mug.wld --root . --port 0");
     CHECK(has(server.line(), "worlds/barrett_mug.wld is served at 127.0.0.1:"));
     CHECK(ask_port(server.port(), "getRobotName ALL\n", 2) == "1\nbarrett\n");
     CHECK(server.end(signal) == 0);
@@ -90,7 +48,7 @@ TEST_CASE("a world is served until a signal ends it") {
 TEST_CASE("the token of a server is kept in a file of its user while it runs") {
   const Folder folder;
   const std::string file = folder / "token";
-  Served server("serve worlds/barrett_mug.wld --root . --port 0 --token-file " + file);
+  Background server("serve worlds/barrett_mug.wld --root . --port 0 --token-file " + file);
   struct stat found {};
   for (int i = 0; i < 500 && stat(file.c_str(), &found) != 0; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -116,7 +74,7 @@ TEST_CASE("clench serve reports faults of its options") {
   CHECK(missing.code == 1);
   CHECK(has(missing.out, "clench serve: "));
   CHECK(has(missing.out, "no such file"));
-  Served server("serve worlds/barrett_mug.wld --root . --port 0");
+  Background server("serve worlds/barrett_mug.wld --root . --port 0");
   const Outcome second =
       run(fmt::format("serve worlds/barrett_mug.wld --root . --port {}", server.port()));
   CHECK(second.code == 1);

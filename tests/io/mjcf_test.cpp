@@ -253,7 +253,8 @@ TEST_CASE("a motor or tendon of a joint that the robot lacks is told, and the ro
                                   rest + "</mujoco>"));
   };
   CHECK(read("<freejoint name='root'/>", "<actuator><motor joint='root'/></actuator>")
-            .warned("motor: joint 'root' is free, and no joint of the robot; this is not used"));
+            .warned(
+                "motor: joint 'root' is free, and does not belong to the robot; this is not used"));
   const ToldRobot beside = read("", "<equality><joint joint1='hinge'/></equality>");
   CHECK(beside.dofs().size() == 2);
   CHECK(beside.warned("joint: joint 'hinge' belongs to a body that is not read; this is not used"));

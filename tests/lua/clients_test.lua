@@ -17,24 +17,66 @@ test("the Python client passes its tests", function(t)
   t.ok(ok and text:find "\nOK\n" ~= nil, text)
 end)
 
-test("the Python client example of the guide runs as printed", function(t)
-  if not run "python3 --version" then t.skip "python3 is not installed" end
-  local page = io.open("docs/guide/server.md"):read "a"
-  local blocks = {}
-  for block in page:gmatch "```python\n(.-)```" do blocks[#blocks + 1] = block end
-  t.equal(#blocks, 2)
-  local path, url = test.path(), nil
+-- `clench serve` in the background: calls use(url, port)
+local function with_server(use)
+  local path = test.path()
   local server = io.popen(("echo $$; exec '%s' -q serve worlds/barrett_mug.wld --port 0 --token-file %s"):format(program, path .. ".token"))
   local process = server:read "l"
   server:read "l"
-  url = server:read("l"):match "%S+$"
-  local file = io.open(path, "w")
-  file:write(blocks[1]:gsub("connect%(%)", ("connect(%q)"):format(url)), "\nimport asyncio\nasync def main():\n")
-  for line in blocks[2]:gmatch "[^\n]+" do file:write("    ", (line:gsub("connect_async%(%)", ("connect_async(%q)"):format(url))), "\n") end
-  file:write "asyncio.run(main())\nprint('finished')\n"
-  file:close()
-  local _, text = run("PYTHONPATH=clients/python PYTHONDONTWRITEBYTECODE=1 python3 " .. path)
+  local url = server:read("l"):match "%S+$"
+  local ok, problem = pcall(use, url, url:match ":(%d+)/")
   os.execute("kill " .. process)
   server:close()
-  t.ok(text:find "\nfinished\n" ~= nil, text)
+  if not ok then error(problem, 0) end
+end
+
+-- the blocks of a language on the page
+local function blocks_of(language)
+  local blocks, file <close> = {}, assert(io.open "docs/guide/server.md")
+  for block in file:read("a"):gmatch("```" .. language .. "\n(.-)```") do blocks[#blocks + 1] = block end
+  return blocks
+end
+
+test("the Python client example of the guide runs as printed", function(t)
+  if not run "python3 --version" then t.skip "python3 is not installed" end
+  local blocks, path = blocks_of "python", test.path()
+  t.equal(#blocks, 2)
+  with_server(function(url)
+    local file = io.open(path, "w")
+    file:write(blocks[1]:gsub("connect%(%)", ("connect(%q)"):format(url)), "\nimport asyncio\nasync def main():\n")
+    for line in blocks[2]:gmatch "[^\n]+" do file:write("    ", (line:gsub("connect_async%(%)", ("connect_async(%q)"):format(url))), "\n") end
+    file:write "asyncio.run(main())\nprint('finished')\n"
+    file:close()
+    local _, text = run("PYTHONPATH=clients/python PYTHONDONTWRITEBYTECODE=1 python3 " .. path)
+    t.ok(text:find "\nfinished\n" ~= nil, text)
+  end)
+end)
+
+local octave = "timeout -s KILL 120 octave-cli --no-gui -q --no-history --eval "
+local function need_octave(t)
+  if not run "octave-cli --version" then t.skip "Octave is not installed (octave, octave-instrument-control)" end
+end
+
+test("the MATLAB clients pass their tests in Octave", function(t)
+  need_octave(t)
+  with_server(function(url)
+    local _, text = run(("CLENCH_URL='%s' %s'addpath clients/matlab/tests; client_test'"):format(url, octave))
+    t.ok(text:find "passed by bash\n" ~= nil, text)
+    local has_tcpclient = run(octave .. "'pkg load instrument-control'")
+    if has_tcpclient then t.ok(text:find "passed by tcpclient\n" ~= nil, text) end
+  end)
+end)
+
+test("the MATLAB example of the guide runs in Octave as printed", function(t)
+  need_octave(t)
+  local blocks, path = blocks_of "matlab", test.path()
+  t.equal(#blocks, 2)
+  with_server(function(url, port)
+    local file = io.open(path, "w")
+    file:write("addpath clients/matlab\n", (blocks[1]:gsub("ClenchClient%(%)", ("ClenchClient('%s')"):format(url))))
+    file:write(("graspitServer('open', '127.0.0.1', %s)\n"):format(port), blocks[2], "disp('finished')\n")
+    file:close()
+    local _, text = run(octave .. ("'source %s'"):format(path))
+    t.ok(text:find "finished\n" ~= nil, text)
+  end)
 end)

@@ -10,31 +10,7 @@ local function serve(options)
   return server, options.world, options.world.robots[1]
 end
 
-local function connect(server, token)
-  local client = {port = clench.port.connect("127.0.0.1", server.port), id = 0, notes = {}}
-  function client.receive()
-    local line, why = client.port:read_line(10)
-    return line and json.decode(line), why or line
-  end
-  -- the response to a request; notifications received before it are kept
-  function client.call(method, params)
-    client.id = client.id + 1
-    client.port:write(json.encode {jsonrpc = "2.0", id = client.id, method = method, params = params} .. "\n")
-    while true do
-      local message = assert(client.receive())
-      if message.id == client.id then return message end
-      client.notes[#client.notes + 1] = message
-    end
-  end
-  -- its result
-  function client.get(method, params)
-    local response = client.call(method, params)
-    if response.error then error(method .. ": " .. response.error.message, 0) end
-    return response.result
-  end
-  if token ~= false then client.get("hello", {token = token or server.token}) end
-  return client
-end
+local connect = dofile "tests/lua/rpc_client.lua"
 
 local function code(response) return response.error and response.error.code end
 
@@ -169,6 +145,19 @@ test("a batch has a response for each request, and none for notifications", func
   t.equal(#batch(many), 1000)
 end)
 
+test("while a batch is served, others are answered, and its client waits", function(t)
+  local server <close>, world = serve()
+  local client, other = connect(server), connect(server)
+  local steps = {}
+  for i = 1, 1000 do steps[i] = {jsonrpc = "2.0", id = i, method = "step", params = {dt = 0.01, state = false}} end
+  client.port:write(json.encode(steps) .. '\n{"jsonrpc":"2.0","id":"next","method":"get","params":{"fields":["time"]}}\n')
+  repeat until other.get("get", {fields = {"time"}}).time > 0
+  t.ok(other.get("get", {fields = {"time"}}).time < 5)
+  t.equal(#client.receive(), 1000)
+  t.close(client.receive().result.time, 10, 1e-6)
+  t.close(world.time, 10, 1e-6)
+end)
+
 test("commands act on the session, by addresses, and can be undone", function(t)
   local server <close>, world, hand = serve()
   local client = connect(server)
@@ -256,6 +245,9 @@ test("a control loop steps and reads in one round trip, bit-identically to a scr
   t.equal(world:hash(), copy:hash())
   client.get("step", {targets = {barrett = {dof2 = 0.9}}, state = false})
   t.equal(code(client.call("step", {dt = 10})), -32602)
+  client.get("world.settings", {time_step = 1e-7})
+  t.ok(client.call("step", {dt = 0.1}).error.message:find "dt: 0.1 s are more than 1000 time steps of 1e%-07 s")
+  client.get "session.undo"
   t.equal(code(client.call("step", {efforts = {barrett = 5}})), -32602)
   t.equal(code(client.call("step", {efforts = {nobody = {1}}})), -32000)
 end)

@@ -248,7 +248,7 @@ test("misbehaving clients are dropped, and others continue", function(t)
   t.equal(gone, {"an HTTP request", "a line was too long", "it does not receive"})
   local others = {}
   for i = 1, 3 do others[i] = clench.port.connect("127.0.0.1", server.port) end
-  t.equal(others[3]:read_line(5), "Error: the server has 3 clients and takes no more")
+  t.equal(others[3]:read_line(5), "Error: the server has 3 clients and accepts no more")
   -- half a line, and an end of input that still gets its replies
   others[1]:write "getRobot"
   others[1]:close()
@@ -272,4 +272,31 @@ test("options of the server are checked", function(t)
   local first <close> = clench.control.server {world = world, port = 0}
   t.fails(function() clench.control.server {world = world, port = first.port} end, "Address already in use")
   t.ok(#first.token >= 32)
+end)
+
+test("lines that arrive together are all answered before the connection is closed", function(t)
+  local server <close>, _, hand = serve()
+  local client = connect(server)
+  client:write(("getRobotName 1 0\n"):rep(3000) .. "GET / HTTP/1.1\n" .. "getRobotName 1 0\n")
+  for _ = 1, 3000 do t.equal(client:read_line(10), hand.name) end
+  t.equal({client:read_line(10)}, {nil, "closed"})
+end)
+
+test("the units of a robot are those of its joints, also if it takes the name of another", function(t)
+  local world = clench.world()
+  local server <close> = clench.control.server {world = world, port = 0}
+  local _, ask = connect(server)
+  local function unit_of_first(path)
+    local robot = world:add_robot(path, {name = "hand"})
+    local low, high = table.unpack(robot.dof_limits[1])
+    local values = robot.dofs
+    values[1] = (low + high) / 2
+    robot:set_dofs(values)
+    local reply = ask("getDOFVals 1 0", 1 + #robot.dofs)
+    world:remove(robot)
+    return tonumber(reply[2]) / values[1]
+  end
+  t.close(unit_of_first "models/hands/barrett/barrett.cfg", 1, 1e-8)
+  t.close(unit_of_first "models/hands/parallel_jaw/parallel_jaw.cfg", 1000, 1e-5)
+  t.close(unit_of_first "models/hands/barrett/barrett.cfg", 1, 1e-8)
 end)

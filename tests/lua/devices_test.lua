@@ -323,6 +323,11 @@ test("CyberGlove: DOFs follow from a calibration, within their limits", function
   t.ok(glove:is_ready())
   device.state = 1
   t.ok(not glove:is_ready())
+  for _, case in ipairs {{{slopes = {{0.01}, {0.02}}, intercepts = {0}}, nil, "calibration: expected {slopes, intercepts}, got a table with names"},
+                         {{slopes = {5}, intercepts = {0}}, nil, "slopes[1]: expected 1 numbers"}, {{slopes = {{0 / 0}}, intercepts = {0}}, nil, "DOF 1: expected finite numbers, got nan"},
+                         {calibration, {5}, "limits[1]: expected a range {low, high}, got 5"}, {calibration, 5, "limits: expected ranges {low, high}, got 5"}} do
+    t.fails(function() glove:read_dofs(case[1], case[2]) end, "cyberglove:read_dofs: " .. case[3])
+  end
 end)
 
 test("Flock of Birds: both modes, all directions, and several birds", function(t)
@@ -342,5 +347,36 @@ test("Flock of Birds: both modes, all directions, and several birds", function(t
   for _ = 1, 20 do
     device.poses[1] = clench.pose {xyz = {random:uniform(-0.9, 0.9), 0, 0}} * random:rotation()
     t.close((angles:read()[1]:inverse() * device.poses[1]):angle(), 0, 1e-3)
+  end
+end)
+
+test("Flock of Birds: words that are no rotation are damaged, not a pose", function(t)
+  local pty <close> = clench.port.pty()
+  local flock <close> = devices.flock {port = pty.path, timeout = 0.05, attempts = 2}
+  -- three rows (1, 0, 0): each has the length 1
+  local record = "\x80\0" .. ("\0"):rep(4) .. ("\x7F\x3F" .. ("\0"):rep(4)):rep(3)
+  loop.spawn(function()
+    while pty:read_until("B", 5) do pty:write(record) end
+  end)
+  t.fails(function() flock:read() end, "no valid answer from ")
+end)
+
+test("a device that never pauses is an error, not a hang", function(t)
+  local noises = {dynamixel = "\xFF\xFF\xFD\x00\x09\x04\x00\x55\x00", flock = "\x80", cyberglove = "G", barrett = "x", robotiq = "\9"}
+  for name, noise in pairs(noises) do
+    local path = test.path()
+    local listener <close> = clench.port.listen {path = path}
+    local job <close> = clench.job(function(where, bytes)
+      local clench = require "clench"
+      local port <close> = clench.port.connect(where)
+      while port:write(bytes:rep(10000), 1) do end
+    end, {args = {path, noise}})
+    local port <close> = listener:accept(10)
+    local began = loop.time()
+    t.fails(function()
+      local driver <close> = devices[name] {port = port, ids = name == "dynamixel" and {1} or nil, timeout = 0.02, attempts = 3}
+      driver:read()
+    end, "no valid answer from ")
+    t.ok(loop.time() - began < 10, name)
   end
 end)

@@ -22,7 +22,7 @@ test("a glove sets the mapped DOFs, within their limits", function(t)
   t.equal(got[3], hand.dof_limits[3][2])
   t.equal({got[1], got[2]}, {hand.dofs[1], hand.dofs[2]})
   t.close(clench.devices.glove_map {hand = hand, calibration = calibration} {60}[1], 0.1, 1e-12)
-  t.fails(function() clench.devices.glove_map {hand = hand} end, "calibration must be {slopes, intercepts}, or a hand with a glove, got nothing")
+  t.fails(function() clench.devices.glove_map {hand = hand} end, "calibration: expected {slopes, intercepts}, or a hand with a glove, got nothing")
   t.fails(function() clench.devices.glove_map {hand = hand, calibration = calibration, dofs = {[5] = 1}} end, "dofs must be numbers of DOFs from 1 to 4, got 5")
   t.fails(function() clench.devices.glove_map {hand = hand, calibration = calibration, dofs = {[1] = 3}} end, "dofs[1] must be a row from 1 to 2, got 3")
   t.fails(function() clench.devices.glove_map {hand = hand, calibration = calibration} "x" end, "expected a list of raw sensors, got 'x'")
@@ -140,4 +140,29 @@ test("signs and offsets of a mirror apply in both directions, and wrong options 
   fails("dofs", {2, 2}, "dofs[2] must be another number from 1 to 4, got 2")
   fails("limits", {{0, 1}, {1, 0}}, "limits[2] must be a range {low, high}")
   fails("max_speed", 0, "max_speed must be a number > 0")
+end)
+
+test("a mirror refuses what a driver should not return, and sends nothing beyond its limits", function(t)
+  local _, hand = scene()
+  local values, sent = {}, nil
+  local device = {read = function() return values end, move = function(_, given) sent = given end}
+  local mirror = clench.devices.mirror {hand = hand, device = device, dofs = {2, 3}, limits = {{0, 1}, {0, 1}}, max_speed = 1, interval = 0.1}
+  for _, case in ipairs {{{1}, "device: expected 2 numbers from read, got a table of 1"}, {{opening = 1}, "expected 2 numbers from read, got a table with names"},
+                         {{1, 0 / 0}, "value 2 of read: expected a finite number, got nan"}, {{"1", 1}, "value 1 of read: expected a finite number, got '1'"}, {nil, "got nothing"}} do
+    values = case[1]
+    t.fails(function() mirror:pull() end, case[2])
+    t.fails(function() mirror:push() end, case[2])
+  end
+  values = {0.5, 5}
+  t.fails(function() mirror:push() end, "value 2 of the device, 5, is beyond its limits 0 to 1: bring it back first")
+  t.equal(sent, nil)
+  hand.dofs = {0, 0, 0, 0}
+  values = {0.5, 1.05}
+  mirror:push()
+  t.close(sent, {0.4, 0.95}, 1e-9)
+  hand.dofs = {0, 0.5, 1, 0}
+  mirror = clench.devices.mirror {hand = hand, device = device, dofs = {2, 3}, limits = {{0, 1}, {0, 1}}, max_speed = 0.1, interval = 0.1}
+  values = {0.5, 1.01}
+  mirror:push()
+  t.close(sent, {0.5, 1}, 1e-9)
 end)

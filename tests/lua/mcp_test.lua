@@ -170,6 +170,13 @@ test("a long tool runs beside others, reports its progress, and is cancelled wit
   t.equal(state, "stopped")
   t.equal(client.notes, {})
   t.equal(client.tool "world-hash", before)
+  -- two requests with one id, of which the last is cancelled: the other one is still answered
+  for _ = 1, 2 do client.input:write '{"jsonrpc":"2.0","id":"twice","method":"tools/call","params":{"name":"dynamics-run","arguments":{"seconds":100000}}}\n' end
+  client.tool "world-hash"
+  client.input:write '{"jsonrpc":"2.0","method":"notifications/cancelled","params":{"requestId":"twice"}}\n'
+  client.tool("job-stop", {job = 2})
+  local answer = client.notes[1] or client.receive()
+  t.equal({answer.id, answer.result.isError}, {"twice", true})
   t.equal(client.tool("dynamics-step", {count = 20}).applied, true)
   local world = clench.load("worlds/barrett_mug.wld", {root = "."})
   for _ = 1, 20 do world:run(world.time_step) end

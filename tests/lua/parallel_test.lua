@@ -86,7 +86,7 @@ test("values that cannot be passed are rejected in one sentence", function(t)
   local function id(x) return x end
   t.fails(function() clench.parallel.map(id, {{close = print}}) end, "items[1].close: a function cannot be copied to another state")
   t.fails(function() clench.parallel.map(id, 5) end, "items: expected a list")
-  t.fails(function() clench.parallel.map(id, {1}, {threads = 0}) end, "threads: expected 1 to 1024, got 0")
+  t.fails(function() clench.parallel.map(id, {1}, {threads = 0}) end, "threads must be 1 to 1024, got 0")
   t.fails(function() clench.parallel.map(id, {1}, {thread = 2}) end, "unknown key 'thread'")
   local cycle = {}
   cycle.self = cycle

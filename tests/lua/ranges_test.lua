@@ -8,17 +8,11 @@ local function jaw()
   return hand, object, world
 end
 
--- calls with one table of options; `base` has options that the call requires, or that make it fast
-local function energy(name, base)
-  return {base = base or {}, call = function(options, hand, object)
-    options.hand, options.object = hand, name ~= "approach_cone" and object or nil
-    return clench.energy[name](options)()
-  end}
-end
+local calls = dofile "tests/lua/described_calls.lua"
 
 local function study(name, base)
   return {base = base, call = function(options, hand, object)
-    options.hand, options.object = hand, object
+    options.hand, options.object = options.hand or hand, options.object or object
     return clench.study[name](options)
   end}
 end
@@ -30,38 +24,18 @@ end
 local quick = {settle = 0.05, grip_seconds = 0.05, seconds = 0.05}
 local square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}
 
-local calls = {
-  ["clench.annealing"] = {base = {}, call = function(options, hand, object)
-    options.hand, options.object, options.energy = hand, object, clench.energy.contact {hand = hand, object = object}
-    local search = clench.annealing(options)
-    search:run(20)
-    return {search.energy, search.counts}
+local of_library = {
+  ["clench.build_arch"] = {base = {}, call = function(options)
+    local parts = clench.build_arch(clench.world(), options)
+    return {#parts, parts[1].mass, parts[1].pose}
   end},
-  ["hand:autograsp"] = {base = {}, call = function(options, hand)
-    hand:open()
-    hand:autograsp(options)
-    return hand.dofs
+  ["clench.export_html"] = {base = {}, call = function(options, _, _, world)
+    return clench.export_html(world, "build/ranges.html", options)
   end},
-  ["hand:find_virtual_contacts"] = {base = {}, call = function(options, hand) return #hand:find_virtual_contacts(options) end},
-  ["hand:ik"] = {base = {}, call = function(options, hand) return hand:ik(hand.links[1], hand.links[1].pose, options).dofs end},
-  ["hand:move_dofs"] = {base = {}, call = function(options, hand)
-    hand:move_dofs({0.02}, options)
-    return hand.dofs
-  end},
-  ["hand:set_targets"] = {base = {}, call = function(options, hand) return hand:set_targets(hand.dofs, options) end},
-  ["contact:fit_patch"] = {base = {}, call = function(options, hand, object, world)
-    return world:contacts(hand, object)[1]:fit_patch(options) == nil
-  end},
-  ["world:on_step"] = {base = {}, call = function(options, _, _, world) world:on_step(print, options) end},
-  ["world:log"] = {base = {quantities = {"energy"}}, call = function(options, _, _, world)
-    local log = world:log(options)
-    world:run(0.03)
-    return log.rows
-  end},
-  ["world:record"] = {base = {}, call = function(options, _, _, world)
-    local film = world:record(options)
-    world:run(0.05)
-    return #film.times
+  ["clench.report.of"] = {base = {}, call = function(options)
+    local report = clench.report.of("models/objects/cube.iv", options)
+    if report.error then error(report.error, 0) end
+    return report.kind
   end},
   ["clench.csv.write"] = {base = {}, call = function(options)
     clench.csv.write("build/ranges.csv", {{a = 1, b = 2}}, options)
@@ -91,27 +65,26 @@ local calls = {
     return clench.study.robustness(clench.grasp(hand, object), options)
   end},
   ["clench.study.predictors"] = {base = {measures = {"epsilon"}, shake = quick}, call = function(options, hand, object)
-    options.hand, options.object = hand, object
+    options.hand, options.object = options.hand or hand, options.object or object
     return clench.study.predictors({clench.grasp(hand, object)}, options).survived
   end},
   ["clench.study.planner_speed"] = {base = {energies = {"contact"}, steps = 20}, call = function(options, hand, object)
-    options.hand, options.object = hand, object
+    options.hand, options.object = options.hand or hand, options.object or object
     return clench.study.planner_speed(options)[1].accepted
+  end},
+  ["clench.study.resistible_wrenches"] = {base = {count = 3, max_force = 5}, call = function(options, hand, object)
+    return clench.study.resistible_wrenches(clench.grasp(hand, object), options).area
   end},
   ["clench.study.shake"] = study("shake", quick),
   ["clench.study.shake_base"] = study("shake_base", quick),
   ["clench.study.lift"] = study("lift", {settle = 0.05, grip_seconds = 0.05, hold = 0.05, height = 0.01}),
   ["clench.study.fall_off"] = study("fall_off", {settle = 0.05, grip_seconds = 0.05, max_force = 2, rate = 40}),
-  ["clench.energy.contact"] = energy "contact",
-  ["clench.energy.potential_quality"] = energy "potential_quality",
-  ["clench.energy.guided_potential_quality"] = energy "guided_potential_quality",
-  ["clench.energy.autograsp_quality"] = energy "autograsp_quality",
-  ["clench.energy.guided_autograsp_quality"] = energy "guided_autograsp_quality",
-  ["clench.energy.strict_autograsp"] = energy "strict_autograsp",
-  ["clench.energy.compliant"] = energy "compliant",
-  ["clench.energy.approach_cone"] = energy("approach_cone", {axis = {0, 0, 1}}),
-  ["clench.energy.dynamic"] = energy("dynamic", {shake = quick}),
+  ["clench.energy.dynamic"] = {base = {shake = quick}, call = function(options, hand, object)
+    options.hand, options.object = options.hand or hand, options.object or object
+    return clench.energy.dynamic(options)()
+  end},
 }
+for name, one in pairs(of_library) do calls[name] = one end
 
 -- entries with a described range or default whose calls are tested elsewhere
 local elsewhere = {
@@ -119,6 +92,10 @@ local elsewhere = {
   ["clench.stats.interval"] = "numbers by position", ["hand:approach_object"] = "the hand of this test approaches nothing",
   ["ui:progress"] = "numbers by position",
 }
+-- they share the options of reading with clench.files.read_text
+for _, name in ipairs {"eigengrasps", "virtual_contacts", "primitives", "glove_calibration", "glove_poses"} do
+  elsewhere["clench.files." .. name] = "clench.files.read_text"
+end
 -- devices, ports and servers, whose options are tested with what they open
 local elsewhere_of = {["^clench%.devices%."] = "devices_test", ["^clench%.port%."] = "port_test", ["^clench%.control%."] = "control_text_test"}
 
@@ -139,12 +116,44 @@ end
 
 local function is_stated(option) return option.min or option.max or option.default ~= nil end
 
+-- is one of the alternatives of the type a number?
+local function takes_number(option)
+  for word in option.type:gmatch "[^|]+" do
+    if word == "number" or word == "integer" or word == "index" then return true end
+  end
+  return false
+end
+
 local function beyond(option)
-  local step = option.type == "integer" and 1 or 1e-6
-  local values = {}
-  if option.min then values[#values + 1] = option.min_open and option.min or option.min - step * math.max(1, math.abs(option.min)) end
+  if not takes_number(option) then return {} end
+  local step = option.type:find "number" and 1e-6 or 1
+  local low, values = option.min or option.type == "index" and 1, {}
+  if low then values[#values + 1] = option.min_open and low or low - step * math.max(1, math.abs(low)) end
   if option.max then values[#values + 1] = option.max_open and option.max or option.max + step * math.max(1, math.abs(option.max)) end
   return values
+end
+
+-- a value of a type that the option does not take; nil if there is none among a string and a boolean
+local function misfit(option)
+  local kind = option.type
+  if kind:find "any" then return nil end
+  if not kind:find "string" and not kind:find '"' then return "misfit" end
+  if not kind:find "boolean" then return true end
+end
+
+-- calls visit(option, wrap) for each option, and for those of tables that the call needs; wrap(value) is the table of options with it
+local function each_option(one, options, visit)
+  for _, option in ipairs(options) do
+    visit(option, function(value) return {[option.name] = value} end)
+    for _, inner in ipairs(type(one.base[option.name]) == "table" and not one.base[option.name][1] and option.fields or {}) do
+      visit(inner, function(value)
+        local table = {}
+        for key, other in pairs(one.base[option.name]) do table[key] = other end
+        table[inner.name] = value
+        return {[option.name] = table}
+      end)
+    end
+  end
 end
 
 local function with(base, more)
@@ -173,16 +182,29 @@ table.sort(names)
 
 for _, name in ipairs(names) do
   local one = calls[name]
-  test(name .. " refuses what is beyond a described range", function(t)
+  local function tried(options)
     local hand, object, world = jaw()
-    for _, option in ipairs(options_of(clench.describe(name))) do
-      for _, value in ipairs(option.type:find "^%a+$" and beyond(option) or {}) do
-        local ok, message = pcall(one.call, with(one.base, {[option.name] = value}), hand, object, world)
-        message = tostring(message)
-        t.ok(not ok and message:find(option.name .. " must be", 1, true), ("%s = %s: %s"):format(option.name, value, message))
+    local ok, message = pcall(one.call, with(one.base, options), hand, object, world)
+    return ok and "no error" or tostring(message)
+  end
+  test(name .. " refuses what is beyond a described range, and values of other types", function(t)
+    each_option(one, options_of(clench.describe(name)), function(option, wrap)
+      for _, value in ipairs(beyond(option)) do
+        local message = tried(wrap(value))
+        t.ok(message:find(option.name .. " must be", 1, true), ("%s = %s: %s"):format(option.name, value, message))
       end
-    end
-    t.ok(true)
+      local value = misfit(option)
+      local message = value == nil and option.name or tried(wrap(value))
+      t.ok(message ~= "no error" and message:find(option.name, 1, true), ("%s = %s: %s"):format(option.name, value, message))
+    end)
+  end)
+  test(name .. " names all words of an option for another word, and describes what it reads", function(t)
+    each_option(one, options_of(clench.describe(name)), function(option, wrap)
+      if not option.type:find '^"[^|]*"|".*"$' then return end
+      local message = tried(wrap "misfit")
+      for word in option.type:gmatch '"([^"]*)"' do t.ok(message:find(word, 1, true), ("%s: %s: %s"):format(option.name, word, message)) end
+    end)
+    t.ok(tried({no_such_key = 1}):find("unknown key 'no_such_key'", 1, true), tried({no_such_key = 1}))
   end)
   test(name .. " gives the same with its described defaults as without them", function(t)
     local function result(options)
@@ -190,9 +212,16 @@ for _, name in ipairs(names) do
       return require "clench.show"(one.call(options, hand, object, world), math.huge)
     end
     local defaults = {}
-    for _, option in ipairs(options_of(clench.describe(name))) do
-      if one.base[option.name] == nil then defaults[option.name] = option.default end
-    end
+    each_option(one, options_of(clench.describe(name)), function(option, wrap)
+      if option.default == nil then return end
+      for key, value in pairs(wrap(option.default)) do
+        if one.base[key] == nil then
+          defaults[key] = value
+        elseif type(value) == "table" and value[option.name] ~= nil and one.base[key][option.name] == nil then
+          defaults[key] = with(defaults[key] or one.base[key], value)
+        end
+      end
+    end)
     t.equal(result(with(one.base, defaults)), result(with(one.base, {})))
   end)
 end

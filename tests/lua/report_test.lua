@@ -70,7 +70,7 @@ test("world:colliding returns the first pairs, up to max", function(t)
   t.equal(names(nil, nil, {}), all)
   t.equal(names(nil, world.bodies[4]), "c1c4 c2c4 c3c4")
   t.equal(names(world.bodies[2], nil, {max = 2}), "c2c1 c2c3")
-  t.fails(function() world:colliding(nil, nil, {max = -1}) end, "world:colliding: max: expected a number >= 0, got -1")
+  t.fails(function() world:colliding(nil, nil, {max = -1}) end, "world:colliding: max must be >= 0, got -1")
   t.fails(function() world:colliding(nil, nil, {min = 1}) end, "unknown key 'min'")
 end)
 

@@ -147,7 +147,7 @@ test("figures of numbers are drawn and saved, and sheets contain them", function
   t.fails(function() clench.plot {series = {{y = {1}}}, x_range = {1}} end, "x_range: expected 2 numbers, got 1")
   t.equal(clench.sheet {pictures = {line, line.picture}}, clench.sheet {pictures = {line.picture, line}})
   t.fails(function() clench.sheet {pictures = {1}} end, "pictures[1]: expected a picture, got 1")
-  t.fails(function() clench.sheet {pictures = {line.picture}, columns = 0} end, "columns: expected at least 1, got 0")
+  t.fails(function() clench.sheet {pictures = {line.picture}, columns = 0} end, "columns must be 1 to 16384, got 0")
 end)
 
 test("bars over names, and charts, are saved as PNG and as SVG", function(t)

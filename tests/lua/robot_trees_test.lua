@@ -99,7 +99,7 @@ test("a robot is fixed to any link by its name, and to the last of a chain by nu
   world:save(file .. ".lua", {root = "."})
   t.equal(clench.load(file .. ".lua", {root = "."}):hash(), world:hash())
   -- the formats of the original only support the last links of chains
-  t.fails(function() world:save(file .. ".wld", {root = "."}) end, "which ends no chain")
+  t.fails(function() world:save(file .. ".wld", {root = "."}) end, "which is not the last link of a chain")
 end)
 
 test("a snapshot restores into clones, and into no other world", function(t)

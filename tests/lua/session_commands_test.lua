@@ -17,6 +17,8 @@ local function run_until(t, is_over)
   t.ok(is_over())
 end
 
+local logged_by_result = {["grasp.apply"] = true, ["sensors.apply"] = true, ["sensors.pull"] = true}
+
 test("every command is described: label, parameters with a text, and a unique shortcut", function(t)
   local session, shortcuts = clench.session(), {}
   t.ok(#session.order > 45, #session.order)
@@ -30,7 +32,7 @@ test("every command is described: label, parameters with a text, and a unique sh
       shortcuts[command.shortcut] = name
     end
     -- commands that change the world are logged, by their own lines or by their result
-    t.ok(command.reads or command.script or name == "grasp.apply", name)
+    t.ok(command.reads or command.script or logged_by_result[name], name)
   end
   t.equal(shortcuts["ctrl+g"], "grasp.autograsp")
   t.equal(shortcuts["ctrl+z"], "edit.undo")
@@ -64,6 +66,23 @@ test("commands evaluate the grasp like the functions", function(t)
   t.equal(session:run("body.distance", {a = "mug", b = "barrett"}), world:distance(mug, hand))
   t.equal(#session.history.done, 2)
   t.fails(function() clench.session(clench.world()):run "grasp.quality" end, "the command cannot run now: no object is current")
+end)
+
+test("a hand is cloned in its posture, without collisions with the original", function(t)
+  local session = opened()
+  session:run "grasp.autograsp"
+  local hand = session.hand
+  local copy = session:run "grasp.clone_hand"
+  t.equal(copy.name, hand.name .. "_2")
+  t.equal(copy.dofs, hand.dofs)
+  t.equal(copy.pose, hand.pose)
+  t.equal(session.world:may_collide(hand, copy), false)
+  t.equal(session.hand, hand)
+  t.equal(session:run("grasp.clone_hand").name, hand.name .. "_3")
+  t.equal(replayed(session):hash(), session.world:hash())
+  session:undo()
+  session:undo()
+  t.equal(#session.world.robots, 1)
 end)
 
 test("collisions are switched for the world, a body, a pair and the selection, and back", function(t)
@@ -168,6 +187,7 @@ test("a gesture is one step of undo, logged as its result", function(t)
   t.equal(mug.pose.position.x, 9)
   t.fails(function() session:run "edit.redo" end, "there is nothing to redo")
   t.fails(function() clench.session():run "edit.undo" end, "there is nothing to undo")
+  t.fails(function() opened():run "edit.undo" end, "there is nothing to undo")
   session:command {name = "mine.undo", run = function(s) s:undo() end}
   t.fails(function() session:run "mine.undo" end, "session:undo: a command is running")
 end)

@@ -40,6 +40,7 @@ test("an option has the type, unit, range, default and prose of its line", funct
   t.equal(field(field(options.fields, "verify").fields, "lift").unit, "m")
   t.equal(force, {name = "force", optional = true, type = "number", unit = "N", text = "at most so much [N]"})
   t.equal(parsed.effect, "edits")
+  t.equal(signature.parse("@effect long, files").files, true)
   t.equal(parsed.returns, {{type = "table result", text = "`moved`"}})
 end)
 
@@ -65,6 +66,7 @@ end)
 test("the type of a table is made from the lines of its options", function(t)
   t.equal(signature.type_of(signature.parse "@param o table\n@option a? integer = 1\n@option b vec3 [m]".parameters[1]),
           "{a?: integer, b: vec3}")
+  t.equal(signature.type_of(signature.parse "@param o mesh|table[]\n@option a? integer".parameters[1]), "mesh|{a?: integer}[]")
 end)
 
 test("a faulty description is rejected with its fault", function(t)
@@ -74,7 +76,8 @@ test("a faulty description is rejected with its fault", function(t)
   t.fails(function() signature.parse "@param o table\n@option a? number\n@option a? number" end, "the option a is described twice")
   t.fails(function() signature.parse "@param x number [m, N]" end, "x has two units, 'm' and 'N'")
   t.fails(function() signature.parse "@param x number = tall" end, "the default of x is not a value: tall")
-  t.fails(function() signature.parse "@effect writes" end, "reads, edits, files or long, got 'writes'")
+  t.fails(function() signature.parse "@effect writes" end, "reads, edits, files or long, or one of these and files, got 'writes'")
+  t.fails(function() signature.parse "@effect files, long" end, "got 'files, long'")
 end)
 
 test("functions, methods and fields are described by value or by name", function(t)
@@ -165,6 +168,49 @@ test("an explicitly given default gives the same grasps", function(t)
     end
     t.equal(search(defaults), search {})
   end
+end)
+
+test("every entry has a name of its own", function(t)
+  local seen = {}
+  for _, entry in ipairs(clench.describe()) do
+    t.ok(not seen[entry.name], entry.name)
+    seen[entry.name] = true
+  end
+end)
+
+test("every entry has an effect", function(t)
+  local effects, missing = {reads = 0, edits = 0, files = 0, long = 0}, {}
+  for _, entry in ipairs(clench.describe()) do
+    if effects[entry.effect] then effects[entry.effect] = effects[entry.effect] + 1 else missing[#missing + 1] = entry.name end
+    if entry.effect == "files" then t.equal(entry.files, true) end
+  end
+  t.equal(table.concat(missing, " "), "")
+  for _, count in pairs(effects) do t.ok(count > 10) end
+  t.equal(clench.describe("clench.plan.primitive").effect, "long")
+  t.equal(clench.describe("clench.plan.primitive").files, true)
+  t.equal(clench.describe("clench.rad").files, nil)
+end)
+
+test("what only reads leaves the world as it is", function(t)
+  local world = clench.load "worlds/parallel_jaw_cube.wld"
+  local hand, object = world.robots[1], world.objects[1]
+  hand:autograsp()
+  local before = world:hash()
+  local receivers = {world = world, hand = hand, body = object, grasp = clench.grasp(hand, object), contact = world:contacts(hand, object)[1], mesh = object.mesh}
+  local called = 0
+  for _, entry in ipairs(clench.describe()) do
+    local owner, name = entry.name:match "^([^.:]+)[.:]([^.:]+)$"
+    local receiver = receivers[owner]
+    if receiver and entry.effect == "reads" and entry.kind == "field" then
+      local _ = receiver[name]
+      called = called + 1
+    elseif receiver and entry.effect == "reads" and entry.kind == "method" and not (entry.parameters[1] and not entry.parameters[1].optional) then
+      pcall(receiver[name], receiver)
+      called = called + 1
+    end
+  end
+  t.ok(called > 60, called)
+  t.equal(world:hash(), before)
 end)
 
 test("every parameter of every entry has a type, and a text or fields", function(t)

@@ -154,7 +154,7 @@ test("an arm brings its hand to the pose of the grasp, or everything stays if it
   glass.pose = clench.pose {xyz = {9, 0, 0}} * glass.pose
   hand:open()
   local opened, posture = hand.dofs, arm.dofs
-  t.fails(function() grasp:apply() end, "grasp of glass by barrett: 'puma560' cannot bring the hand there; at best it stands")
+  t.fails(function() grasp:apply() end, "grasp of glass by barrett: 'puma560' cannot bring the hand there; at best it is")
   t.equal(hand.dofs, opened)
   t.equal(arm.dofs, posture)
 end)

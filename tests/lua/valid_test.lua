@@ -82,7 +82,7 @@ for _, quantity in ipairs(quantities) do
       for _, x in ipairs(quantity[way] and numbers or {}) do
         local ok, message = pcall(quantity[way], x)
         t.ok(ok == (allowed[x] or way == "file" and repaired[x] or false), ("%s: %s: %s: %s"):format(quantity.name, way, x, message))
-        if not ok then t.ok(tostring(message):find "expected " ~= nil, message) end
+        if not ok then t.ok(tostring(message):find "expected " or tostring(message):find " must be ", message) end
       end
     end
   end)

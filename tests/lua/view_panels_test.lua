@@ -51,6 +51,25 @@ test("every panel draws on the mug and on the flask without an error", function(
   end
 end)
 
+test("no menu has two entries of the same name", function(t)
+  local _, view = open()
+  for _, menu in ipairs {"File", "Edit", "Element", "Grasp", "Dynamics", "Jobs", "Misc.", "View", "Help"} do
+    local bar = item(view, "^" .. menu:gsub("%.", "%%.") .. "$")
+    view:click(bar.x + 4, bar.y + 8)
+    view:frame()
+    local seen, count = {}, 0
+    for _, entry in ipairs(view:items()) do
+      if entry.kind:find "menu" and entry.y > 24 then
+        t.equal(seen[entry.label], nil, menu .. "/" .. entry.label)
+        seen[entry.label], count = true, count + 1
+      end
+    end
+    t.ok(count > 0, menu)
+    view:click(bar.x + 4, bar.y + 8)
+  end
+  view:close()
+end)
+
 test("the console shows the Lua of each command, of undo, and results with names", function(t)
   local session, view = open()
   view:menu "Grasp/Auto Grasp"
@@ -147,6 +166,27 @@ test("an eigengrasp slider moves the hand, a fixed one does not, and the posture
   view:close()
 end)
 
+test("eigengrasps are saved, replaced by one per DOF, and loaded, each as one command", function(t)
+  local session, view = open "dlr_flask"
+  view:click_label "EigenGrasps"
+  local hand = session.hand
+  local old, path = hand.eigengrasps, test.path ".xml"
+  session:run("grasp.save_eigengrasps", {path = path})
+  view:click_label "Use Identity"
+  t.equal(hand.eigengrasps.count, #hand.dofs)
+  for i, value in ipairs(hand.dofs) do
+    t.close(hand.amplitudes[i], value, 1e-12)
+    t.equal(hand.eigengrasps.limits[i], hand.dof_limits[i])
+  end
+  session:run("grasp.load_eigengrasps", {path = path})
+  t.equal(session.hand.eigengrasps.count, old.count)
+  for i = 1, old.count do
+    for j = 1, #hand.dofs do t.close(session.hand.eigengrasps.vectors[i][j], old.vectors[i][j], 1e-6) end
+  end
+  t.equal(assert(load(session:script() .. "\nreturn world", "=script", "t"))():hash(), session.world:hash())
+  view:close()
+end)
+
 test("virtual contacts are found, marked, saved, loaded and cleared", function(t)
   local session, view = open()
   session:run "grasp.autograsp"
@@ -180,10 +220,10 @@ test("an arch is built from the menu, stands on its supports, and rejects bad ra
   session:run("dynamics.run", {seconds = 0.2})
   t.close((key.pose * key.com).z, before, 0.005)
   t.fails(function() clench.build_arch(clench.world(), {outer_radius = 0.5}) end, "outer_radius must exceed inner_radius, 0.9, got 0.5")
-  t.fails(function() clench.build_arch(clench.world(), {blocks = 2.5}) end, "blocks: expected an integer from 3 to 200, got 2.5")
+  t.fails(function() clench.build_arch(clench.world(), {blocks = 2.5}) end, "blocks must be a whole number from 3 to 200, got 2.5")
   t.fails(function() clench.build_arch(clench.world(), {block = 2}) end, "unknown key 'block'")
-  t.fails(function() clench.build_arch(clench.world(), {thickness = "x"}) end, "thickness: expected a number, got 'x'")
-  t.fails(function() clench.build_arch(clench.world(), {thickness = 0}) end, "thickness must be positive, got 0")
+  t.fails(function() clench.build_arch(clench.world(), {thickness = "x"}) end, "thickness must be a number > 0, got 'x'")
+  t.fails(function() clench.build_arch(clench.world(), {thickness = 0}) end, "thickness must be a number > 0, got 0")
   t.fails(function() clench.build_arch "x" end, "expected a world, got 'x'")
   view:close()
 end)
@@ -211,27 +251,5 @@ test("a planner is started, its results are stepped through, and targets become 
   t.equal(state.rank, 2)
   view:click_label "<"
   t.equal(session.world:hash(), best)
-  view:close()
-end)
-
-test("optimal forces are shown until something moves, and the yielding contact is named", function(t)
-  local session, view = open()
-  session:run "grasp.autograsp"
-  view:click_label "Forces"
-  view:click_label "Optimize"
-  t.equal(view.forces.result.status, "optimal")
-  t.equal(#view.shown_forces.forces, #session.world:contacts(session.hand, session.object))
-  view.forces.max_force = 1e-3
-  view:click_label "Optimize"
-  view:frame()
-  t.equal(view.forces.result.status, "infeasible")
-  t.ok(texts_of(view):find "The contact of barrett_chain%d_link%d yields first", texts_of(view))
-  view.forces.max_force = 0
-  view:click_label "Stability"
-  t.equal(view.forces.result.status, "stable")
-  view:menu "Grasp/Auto Open"
-  view:frame()
-  t.equal(view.shown_forces, nil)
-  t.ok(texts_of(view):find "Something has moved since")
   view:close()
 end)

@@ -20,6 +20,11 @@ test("a screenshot without panels is the draft of the same camera", function(t)
   view.panels_visible = false
   local shot = view:screenshot {}
   t.equal(shot == clench.render(session.world, {size = {320, 240}, camera = view.camera, quality = "draft"}), true)
+  -- without picture and panels nothing of the world is drawn
+  view.picture_visible = false
+  local nothing = view:screenshot {}
+  session:run "grasp.autograsp"
+  t.equal(view:screenshot {} == nothing and nothing ~= shot, true)
   view:close()
 end)
 
@@ -76,6 +81,18 @@ test("typing does not trigger shortcuts", function(t)
   t.equal(session.world:hash(), first)
   view:key "escape"
   t.equal(view.palette, nil)
+  view:close()
+end)
+
+test("a command that cannot run opens no dialog, and its reason is shown", function(t)
+  local session = clench.session()
+  session:run "world.new"
+  local view = clench.view.offscreen {session = session, size = {640, 480}}
+  view:key "ctrl+p"
+  view:type "planner.random"
+  view:key "enter"
+  t.equal(next(view.dialogs), nil)
+  t.equal(view.status, "Random Planner cannot run now: " .. select(2, session.commands["planner.random"].enabled(session)))
   view:close()
 end)
 

@@ -1,7 +1,10 @@
 #include "clench/port/socket.h"
 
 #include <doctest/doctest.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -68,6 +71,25 @@ TEST_CASE(
   acceptor.close();
   CHECK(access(socket_path().c_str(), F_OK) != 0);
   CHECK(!acceptor.accept().has_value());
+}
+
+TEST_CASE("a machine that has gone without a word is noticed within a minute, on both sides") {
+  Acceptor acceptor = Acceptor::tcp({"127.0.0.1"}, 0);
+  const Stream client = begin_connect({"127.0.0.1"}, acceptor.port());
+  const Stream server = accept_one(acceptor);
+  for (const Stream* side : {&client, &server}) {
+    const auto option = [&](int level, int name) {
+      int value = -1;
+      socklen_t size = sizeof value;
+      REQUIRE(getsockopt(side->descriptor(), level, name, &value, &size) == 0);
+      return value;
+    };
+    CHECK(option(SOL_SOCKET, SO_KEEPALIVE) == 1);
+    const int seconds = option(IPPROTO_TCP, TCP_KEEPIDLE) +
+                        option(IPPROTO_TCP, TCP_KEEPINTVL) * option(IPPROTO_TCP, TCP_KEEPCNT);
+    CHECK(seconds > 0);
+    CHECK(seconds <= 60);
+  }
 }
 
 TEST_CASE("a socket file is replaced if and only if no program listens to it") {

@@ -7,6 +7,7 @@ root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
 mkdir -p "$root/tests" "$root/build/fuzz/api-tree" "$root/build/fuzz/files-tree"
 cp -r tests/fuzz "$root/tests/"
+cp -r scripts "$root/"
 cd "$root"
 
 cat >program <<'E2'
@@ -57,3 +58,11 @@ for how in summary overflow signal wait finding; do
   wants "the file that causes a $how is stored" "$said|$(cat build/fuzz/found/*.obj)" "FOUND files-*|bad"
   wants "and other files are removed" "$(find build/fuzz/files-tree -name 'fuzz-*' -o -name 'found-*')" ""
 done
+
+# the random input of the viewer is one process in a scratch folder
+mkdir -p models worlds tests/data/seeds
+wanted="-q run $root/tests/fuzz/viewer.lua 5 70 $root/build/fuzz/viewer-tree"
+printf '#!/usr/bin/env bash\necho "$* $PWD"; exit 3\n' >program
+status=0
+said=$(FUZZ_CLENCH=program FUZZ_SEED=5 bash scripts/fuzz viewer 70) || status=$?
+wants "the viewer is tested in a scratch folder" "$status $said" "3 $wanted"

@@ -17,7 +17,7 @@ wants() {
 }
 
 run
-wants "a machine without apt is told what to do" "$status $said" "1 scripts/setup knows Debian 12"
+wants "a machine without apt is told what to do" "$status $said" "1 scripts/setup supports Debian 12 with apt-get, which this machine does not have."
 
 fake id 'echo 0'
 fake dpkg-query 'shift 3; for p in "$@"; do [[ $p == ccache || $p == doctest-dev ]] || echo "installed $p"; done'

@@ -250,16 +250,19 @@ ForceResult answer(const World& world, const Grasp& grasp, const ForceOptions& o
 
 }  // namespace
 
-ForceResult contact_forces(const World& world, const Grasp& grasp, const ForceOptions& options) {
+void check_force_options(const World& world, const Grasp& grasp, const ForceOptions& options) {
   check_unmoved(world, grasp);
   check_options(world, grasp, options);
+}
+
+ForceResult contact_forces(const World& world, const Grasp& grasp, const ForceOptions& options) {
+  check_force_options(world, grasp, options);
   return answer(world, grasp, options,
                 options.nearest ? ForceQuestion::nearest : ForceQuestion::forces);
 }
 
 ForceResult max_load(const World& world, const Grasp& grasp, const ForceOptions& options) {
-  check_unmoved(world, grasp);
-  check_options(world, grasp, options);
+  check_force_options(world, grasp, options);
   if (options.load.isZero(0)) fail("largest load: the direction must not be 0");
   // the length of a direction is ignored
   ForceOptions unit = options;

@@ -56,6 +56,9 @@ struct ForceResult {
   std::optional<ForceCertificate> certificate = {};
 };
 
+/// throws  Error if an option is invalid, or as check_unmoved does
+void check_force_options(const World& world, const Grasp& grasp, const ForceOptions& options);
+
 /// A grasp without contacts is valid: only a zero load is balanced.
 /// throws  Error if an option is invalid, or as check_unmoved does
 ForceResult contact_forces(const World& world, const Grasp& grasp, const ForceOptions& options);

@@ -240,7 +240,91 @@ double about_longest_arm(const Grasp& grasp) {
   return arm > 0 ? std::exp2(std::round(std::log2(arm))) : 1;
 }
 
+// Does a motor of the hand drive this?
+bool is_driven(const ForceProgram& p, const Grasp& grasp, int k) {
+  const EffortRef& ref = p.joints.refs[k];
+  return !ref.clutch && ref.robot == grasp.hand && p.low[k] < p.high[k];
+}
+
+// `extra` at least the effort over its limit, in either direction
+void bound_fraction(ForceProgram& p, int effort, int k) {
+  const double high = std::isfinite(p.high[k]) ? p.high[k] : 1,
+               low = std::isfinite(p.low[k]) ? p.low[k] : -1;
+  p.builder.at_most({{effort, number(1)}, {p.extra, number(-std::max(0.0, high))}},
+                    numbers(-p.at_rest[k]));
+  p.builder.at_most({{effort, number(-1)}, {p.extra, number(std::min(0.0, low))}},
+                    numbers(p.at_rest[k]));
+}
+
+// `extra` as the largest fraction of the efforts of the hand's motors
+void minimize_fraction(ForceProgram& p, const Grasp& grasp, int efforts) {
+  p.extra = p.builder.unknowns(1);
+  p.builder.cost(p.extra, 1);
+  p.builder.at_most({{p.extra, number(-1)}}, numbers(0));
+  for (int k = 0; k < static_cast<int>(p.joints.refs.size()); ++k)
+    if (is_driven(p, grasp, k)) bound_fraction(p, efforts + k, k);
+  p.program = p.builder.program();
+  p.solution = solve(p.program);
+}
+
+ForceProgram begin_preload(const World& world, const Grasp& grasp, const JointDemand& joints) {
+  ForceProgram p;
+  p.map = grasp_map(grasp.points, grasp.com);
+  p.arm = about_longest_arm(grasp);
+  p.joints = joint_balance(world, grasp, joints.arms, joints.link_weights);
+  return p;
+}
+
+// further forces and efforts, which balance a load
+void add_loaded(ForceProgram& p, const World& world, const Grasp& grasp,
+                const ForceOptions& options, const Vector6d& load_O) {
+  Vector6d rows = Vector6d::Ones();
+  rows.tail<3>() /= p.arm;
+  p.f = p.builder.unknowns(p.map.forces());
+  p.builder.equal({{p.f, rows.asDiagonal() * p.map.matrix}}, -rows.cwiseProduct(load_O));
+  add_cones(p, grasp, options, false);
+  add_joints(p, world, grasp, *options.joints);
+}
+
 }  // namespace
+
+LoadedProgram make_constant_preload(const World& world, const Grasp& grasp,
+                                    const ForceOptions& options,
+                                    const std::vector<Vector6d>& loads_O) {
+  LoadedProgram out{.program = begin_preload(world, grasp, *options.joints)};
+  ForceProgram& p = out.program;
+  for (const Vector6d& load_O : loads_O) {
+    add_loaded(p, world, grasp, options, load_O);
+    if (out.forces.empty()) out.efforts = p.u;
+    out.forces.push_back(p.f);
+    // motors exert the same efforts as at the first load
+    for (int k = 0; k < static_cast<int>(p.joints.refs.size()) && p.u != out.efforts; ++k)
+      if (is_driven(p, grasp, k))
+        p.builder.equal({{out.efforts + k, number(1)}, {p.u + k, number(-1)}}, numbers(0));
+  }
+  minimize_fraction(p, grasp, out.efforts);
+  return out;
+}
+
+LoadedProgram make_locked_preload(const World& world, const Grasp& grasp,
+                                  const ForceOptions& options,
+                                  const std::vector<VectorXd>& responses) {
+  LoadedProgram out{.program = begin_preload(world, grasp, *options.joints)};
+  ForceProgram& p = out.program;
+  add_loaded(p, world, grasp, options, Vector6d::Zero());
+  out.efforts = p.u;
+  const int unloaded = p.f, count = p.map.forces();
+  for (const VectorXd& response : responses) {
+    p.f = p.builder.unknowns(count);
+    p.builder.equal(
+        {{p.f, MatrixXd::Identity(count, count)}, {unloaded, -MatrixXd::Identity(count, count)}},
+        response);
+    add_cones(p, grasp, options, false);
+    out.forces.push_back(p.f);
+  }
+  minimize_fraction(p, grasp, out.efforts);
+  return out;
+}
 
 ForceProgram make_program(const World& world, const Grasp& grasp, const ForceOptions& options,
                           ForceQuestion question) {

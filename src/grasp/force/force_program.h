@@ -45,4 +45,21 @@ enum class ForceQuestion {
 ForceProgram make_program(const World& world, const Grasp& grasp, const ForceOptions& options,
                           ForceQuestion question);
 
+/// A program in which one preload of the hand's motors holds several loads.
+struct LoadedProgram {
+  ForceProgram program;     ///< minimizes `extra`: the largest effort as a fraction of its limit
+  std::vector<int> forces;  ///< per load: column of the contact forces
+  int efforts = 0;          ///< column of the efforts of the preload, relative to `at_rest`
+};
+
+/// Motors exert the same efforts at each load.
+/// loads_O  not empty
+LoadedProgram make_constant_preload(const World& world, const Grasp& grasp,
+                                    const ForceOptions& options,
+                                    const std::vector<Vector6d>& loads_O);
+/// Motors balance forces without a load; each load changes these forces by a given response.
+LoadedProgram make_locked_preload(const World& world, const Grasp& grasp,
+                                  const ForceOptions& options,
+                                  const std::vector<Eigen::VectorXd>& responses);
+
 }  // namespace clench

@@ -21,11 +21,7 @@ namespace clench {
 static std::optional<double> read_unit(Table& options) {
   const bool named = options.has("unit"), scaled = options.has("mesh_scale");
   if (named && scaled) fail("{}: expected unit or mesh_scale, got both", options.subject());
-  if (scaled) {
-    const double scale = options.number("mesh_scale");
-    check(scale_rule.called("mesh_scale"), scale, options.subject());
-    return scale;
-  }
+  if (scaled) return options.number("mesh_scale");
   if (!named) return {};
   return options.choice(
       "unit", {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}, {"inch", 0.0254}, {"foot", 0.3048}}, 1.0);
@@ -73,9 +69,7 @@ static void override_spec(lua_State* L, BodySpec& spec, Table& options) {
   spec.material = options.string("material", spec.material);
   if (options.has("density")) {
     if (options.has("mass")) fail("{}: expected mass or density, got both", subject(L));
-    const double density = options.number("density");
-    check(density_rule, density, options.subject());
-    spec.mass = mass_of(L, spec, density);
+    spec.mass = mass_of(L, spec, options.number("density"));
     spec.inertia_told = true;  // by the density
   }
   spec.mass = options.number("mass", spec.mass);

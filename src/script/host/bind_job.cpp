@@ -184,8 +184,12 @@ const Entry job_functions[] = {
     {"job", guarded<new_job>, R"(
 Runs a function concurrently with the script: in a thread, in a separate Lua state, on copies of its arguments. As many jobs run at once as there are cores, but at least two; others are queued. A job without a handle continues; the end of the program stops it.
 @param task function|string  which uses nothing of the lines around it; or the name of a module that returns such a function
-@param options? {args?: any[], shared?: any, name?: string}  args: the function's arguments, of the kinds that clench.parallel.map hands over; shared: the same, as `clench.this_job.shared`; name: for messages
+@param options? table  what it is given
+@option args? any[]  the function's arguments, of the kinds that clench.parallel.map hands over
+@option shared? any  the same, as `clench.this_job.shared`
+@option name? string  for messages
 @return job
+@effect reads
 > job = clench.job(function(n) return n * n end, {args = {7}})
 > job:wait()
 > job:result()  --> 49
@@ -232,16 +236,19 @@ const Entry job_methods[] = {
 Waits for its end. Coroutines of `clench.loop` do not run meanwhile: in them, `clench.loop.wait(job)` waits.
 @param seconds? number  at most so long; 0: not at all [s]
 @return boolean over  is it done, failed or stopped?
+@effect long
 > clench.job(function() end):wait()  --> true
 > clench.job(function() end):wait(-1)  --> error: seconds: expected a time >= 0, got -1)"},
     {"result", guarded<get_results>, R"(
 Results of its function. Raises the function's error, and an error if the job was stopped or is not over yet.
 @return any ...
+@effect long
 > job = clench.job(function() error "no luck" end, {name = "lottery"})
 > job:wait()
 > job:result()  --> error: no luck)"},
     {"stop", method<[](const JobPtr& x) { x->stop(); }>, R"(
 Stops it within about 100 ms, in Lua and in calls of the engine; other programs that it has started and not waited for to the end are ended, too. A call of string.find with a hostile pattern ends first. A job that is over is not affected.
+@effect edits
 > job = clench.job(function() while true do end end)
 > job:stop()
 > job:wait(5), job.state  --> true, stopped
@@ -250,12 +257,14 @@ Stops it within about 100 ms, in Lua and in calls of the engine; other programs 
 > job:wait(5), job.state  --> true, stopped)"},
     {"pause", method<[](const JobPtr& x) { x->pause(); }>, R"(
 Pauses it at its next instruction in Lua; a call of the engine ends first.
+@effect edits
 > job = clench.job(function() while true do end end)
 > job:pause()
 > job:stop()
 > job:wait(5), job.state  --> true, stopped)"},
     {"resume", method<[](const JobPtr& x) { x->resume(); }>, R"(
 Lets it continue after `pause`.
+@effect edits
 > job = clench.job(function() end)
 > job:pause()
 > job:resume()
@@ -263,6 +272,7 @@ Lets it continue after `pause`.
     {"events", guarded<take_events>, R"(
 All values that it has sent by `clench.this_job:event` since the last call, in order.
 @return any[] events
+@effect edits
 > job = clench.job(function() for i = 1, 3 do clench.this_job:event(i) end end)
 > job:wait()
 > job:events(), #job:events()  --> {1, 2, 3}, 0)"},
@@ -288,12 +298,14 @@ const Entry this_job_methods[] = {
     {"event", guarded<send_event>, R"(
 Sends a value to the script that has started the job. Events arrive in order, and none is lost.
 @param value any  of the kinds that clench.parallel.map hands over
+@effect edits
 > job = clench.job(function() clench.this_job:event {grasps = 1} end)
 > job:wait()
 > job:events()  --> {{grasps = 1}})"},
     {"show", guarded<show_value>, R"(
 Shows a value, which becomes `job.snapshot` and replaces the previous one.
 @param value any  of the kinds that clench.parallel.map hands over
+@effect edits
 > job = clench.job(function() clench.this_job:show "half" end)
 > job:wait()
 > job.snapshot  --> half)"},

@@ -6,6 +6,7 @@
 #include "clench/script/host/library_table.h"
 #include "clench/script/host/natives.h"
 #include "clench/script/lua/chunks.h"
+#include "clench/script/lua/described_options.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/lookup.h"
 #include "clench/script/lua/packed.h"
@@ -37,6 +38,7 @@ int clench_open(lua_State* L) {
   add_packed_searcher(L, module);
   push_packed(L, "error_value");
   set_error_metatable(L);
+  set_described_entries(L, all_libraries(), all_classes());
   add_natives(L);
   return 1;
 }

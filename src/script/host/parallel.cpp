@@ -273,8 +273,6 @@ int map(lua_State* L) {
   Table options(L, 3);
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int threads = options.integer("threads", cores);
-  if (threads < 1 || threads > 1024)
-    fail("{}: threads: expected 1 to 1024, got {}", subject, threads);
   const bool told = options.push_function("each");
   const int each = lua_gettop(L);
   options.push("shared");
@@ -355,9 +353,13 @@ const Entry functions[] = {
 Calls a function for each item of a list, in several threads, each with a separate Lua state and separate worlds. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are in their original state, and math.random is seeded anew. All states together are limited to the memory of the calling one.
 @param task function|string  (item, shared, number), which uses nothing of the lines around it; or the name of a module that returns such a function
 @param items table  a list of plain data, worlds, bodies, robots, snapshots, meshes, poses, vectors, random numbers and grasps; each is handed over as a copy, grasps in no world
-@param options? {threads?: integer, shared?: any, each?: function}  threads: all cores by default; shared: what every state is given once; each(result, number): called here in the order of the items, as soon as they are done
+@param options? table  threads and shared values
+@option threads? integer [1 to 1024]  number of threads, all cores by default
+@option shared? any  given to every state once
+@option each? function  each(result, number), called here in the order of the items, as soon as they are done
 @return table results  an item that failed gives {error: string, kind?: string}, the kind of an error of Clench, and so does one that was not done when it was stopped
 @return integer failed
+@effect long
 > clench.parallel.map(function(x) return x * x end, {1, 2, 3})  --> {1, 4, 9}, 0
 > clench.parallel.map(function(p, s) s.body.pose = p; return s.body.pose.position.z end, {clench.pose {xyz = {0, 0, 2}}}, {shared = {body = flask}})  --> {2.0}, 0
 > clench.parallel.map(function(x) return hand.dofs end, {1})[1].error:match "global 'hand'" ~= nil  --> true
@@ -366,6 +368,7 @@ Calls a function for each item of a list, in several threads, each with a separa
 Niceness of the threads that `map` and `clench.job` start from now on; 10 gives an open window priority over them.
 @param level? integer  from 0, as the script itself, to 19; without it the level stays
 @return integer level
+@effect edits
 > clench.parallel.nice(10)  --> 10
 > clench.parallel.nice()  --> 10
 > clench.parallel.nice(0)  --> 0

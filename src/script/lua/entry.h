@@ -22,7 +22,8 @@
 //     A field has `@type`; text after two spaces is prose, with the unit in brackets:
 // clang-format off
 //         Closes the fingers until contact stops them.
-//         @param options? {speed?: number, stop_at_contact?: boolean}  speed 1: the hand's own pace
+//         @param options? table  how it closes
+//         @option speed? number [> 0] = 1  of all closing speeds
 //         @return table result  `moved`, `stops`
 //         > hand:autograsp().moved  --> true
 // clang-format on

@@ -1,19 +1,38 @@
 #include "clench/script/lua/table.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "clench/base/suggest.h"
 #include "clench/base/text.h"
-#include "clench/script/lua/described_options.h"
 
 namespace clench {
+
+// Rejects numbers beyond the range of their option.
+static void check_ranges(lua_State* L, int index, std::span<const DescribedOption> options,
+                         const std::string& subject) {
+  for (const DescribedOption& option : options) {
+    if (!option.min && !option.max) continue;
+    lua_pushstring(L, option.name.c_str());
+    lua_rawget(L, index);
+    const bool is_number = lua_type(L, -1) == LUA_TNUMBER;
+    const double x = is_number ? lua_tonumber(L, -1) : 0;
+    lua_pop(L, 1);
+    // what is not finite is refused by its reader
+    if (is_number && std::isfinite(x) && !option.holds(x))
+      fail("{}: {} must be {}, got {}", subject, option.name, option.range(), x);
+  }
+}
 
 Table::Table(lua_State* L, int index, std::string subject)
     : L_(L), index_(0), subject_(subject.empty() ? clench::subject(L) : std::move(subject)) {
   if (lua_isnoneornil(L, index)) return;
   if (lua_type(L, index) != LUA_TTABLE)
     fail_expected({L, subject_, ""}, "a table of options", index);
+  if (!lua_checkstack(L_, 4)) fail(ErrorKind::limit, "{}: too many values on the stack", subject_);
   index_ = lua_absindex(L, index);
+  described_ = described_options(L, index_, subject_);
+  check_ranges(L, index_, described_, subject_);
 }
 
 int Table::push(const char* key) {
@@ -52,12 +71,6 @@ T Table::required(const char* key) {
 
 double Table::number(const char* key) { return required<double>(key); }
 double Table::number(const char* key, double fallback) { return has(key) ? number(key) : fallback; }
-
-double Table::positive(const char* key, double fallback) {
-  const double x = number(key, fallback);
-  if (!(x > 0)) fail("{}: {} must be > 0, got {}", subject_, key, x);
-  return x;
-}
 
 int Table::integer(const char* key) { return required<int>(key); }
 int Table::integer(const char* key, int fallback) { return has(key) ? integer(key) : fallback; }
@@ -128,39 +141,17 @@ void Table::refuse(int key) const {
   fail("{}: unknown key {}{}", subject_, described(L_, key), instead_of(name, known_));
 }
 
-// The options that the doc of the running entry describes for its argument at the index; none for a
-// nested table, whose subject is longer.
-static std::span<const DescribedOption> options_at(lua_State* L, int index,
-                                                   const std::string& table_subject) {
-  const Entry* entry = running_entry(L);
-  if (!entry || table_subject != subject(L)) return {};
-  return described_options(*entry, index - (running_class(L) ? 2 : 1));
-}
-
-// Rejects numbers beyond the range of their option.
-static void check_ranges(lua_State* L, int index, std::span<const DescribedOption> options,
-                         const std::string& table_subject) {
-  for (const DescribedOption& option : options) {
-    if (!option.min && !option.max) continue;
-    lua_pushstring(L, option.name.c_str());
-    lua_rawget(L, index);
-    const bool is_number = lua_type(L, -1) == LUA_TNUMBER;
-    const double x = is_number ? lua_tonumber(L, -1) : 0;
-    lua_pop(L, 1);
-    if (is_number && !option.holds(x))
-      fail("{}: {} must be {}, got {}", table_subject, option.name, option.range(), x);
-  }
+// An option that the doc does not describe is a mistake in the doc.
+void Table::check_description() const {
+  if (described_.empty()) return;
+  for (const std::string& name : known_)
+    if (std::ranges::find(described_, name, &DescribedOption::name) == described_.end())
+      fail(ErrorKind::internal, "{}: option '{}' is not described", subject_, name);
 }
 
 void Table::done() {
   if (!index_) return;
-  const auto options = options_at(L_, index_, subject_);
-  check_ranges(L_, index_, options, subject_);
-  if (!options.empty()) {
-    // an option that the doc does not describe is unknown, even if the function would read it
-    known_.clear();
-    for (const DescribedOption& option : options) known_.push_back(option.name);
-  }
+  check_description();
   // the smallest unknown name, so that the message does not depend on the order of a hash table
   std::string unknown;
   for (lua_pushnil(L_); lua_next(L_, index_); lua_pop(L_, 1)) {

@@ -1,4 +1,5 @@
-// The options of a call: one Lua table, read key by key, in which unread keys are errors.
+// The options of a call: one Lua table, read key by key, in which unread keys are errors. Numbers
+// are checked against the ranges in the doc of the running entry, which describes every option.
 #pragma once
 #include <initializer_list>
 #include <span>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "clench/script/lua/check.h"
+#include "clench/script/lua/described_options.h"
 
 namespace clench {
 
@@ -46,7 +48,6 @@ class Table {
   int type(const char* key);  ///< of Lua's
   double number(const char* key);
   double number(const char* key, double fallback);
-  double positive(const char* key, double fallback);  ///< > 0
   int integer(const char* key);
   int integer(const char* key, int fallback);
   uint64_t seed(const char* key, uint64_t fallback);  ///< any Lua integer
@@ -88,6 +89,7 @@ class Table {
 
  private:
   [[noreturn]] void refuse(int key) const;
+  void check_description() const;
   /// throws Error if the key is absent, and an unread one has a similar name
   void push_required(const char* key);
   template <class T>
@@ -98,7 +100,8 @@ class Table {
   lua_State* L_;
   int index_;  // 0: no table
   std::string subject_;
-  std::vector<std::string> known_;
+  std::span<const DescribedOption> described_;  // empty: the doc does not list them
+  std::vector<std::string> known_;              // keys that were read
 };
 
 template <class T>

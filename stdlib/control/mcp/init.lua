@@ -1,5 +1,6 @@
 --- The Model Context Protocol over standard input and output: offers methods of the server as tools to programs that let language models call them.
 --- Supports clients of all revisions: those that begin with initialize, and those whose requests name their revision.
+local described = require "clench.described"
 local failure = require "clench.control.rpc.failure"
 local is_stopped = require "clench.is_stopped"
 local messages = require "clench.control.rpc.messages"
@@ -66,10 +67,12 @@ local function method_of(server, name)
   if needs_control then failure.raise("params", "the tool '%s' changes the world: this server was started without --control", name) end
   local names = {}
   for i, tool in ipairs(tools.list(server)) do names[i] = tool.name end
-  failure.raise("params", "there is no tool '%s'%s", name, suggest(name, names))
+  failure.raise("params", "there is no tool %s%s", described(name), suggest(name, names))
 end
 
 local function content(text, is_error) return {content = {{type = "text", text = text}}, isError = is_error} end
+
+local cancelled = setmetatable({}, {__mode = "k"})  -- jobs of requests that are not answered, as their clients have cancelled them
 
 -- A failure is returned as a result, which a model can read and correct; only an unknown tool is an error of the protocol.
 local function call_tool(context, params, id)
@@ -88,8 +91,8 @@ local function call_tool(context, params, id)
     if args ~= nil and type(args) ~= "table" then failure.raise("params", "arguments: expected an object of arguments by name") end
     return clench.json.encode(values.of(methods.call(of_call, method, args or {}, true)))
   end)
-  local is_cancelled = job ~= nil and id ~= nil and client.running[id] == nil
-  if id ~= nil then client.running[id] = nil end
+  local is_cancelled = job ~= nil and cancelled[job]
+  if id ~= nil and client.running[id] == job then client.running[id] = nil end
   if is_cancelled then return messages.no_answer end
   if not ok and is_stopped(result) then error(result, 0) end
   return content(ok and result or failure.of(result).message, not ok)
@@ -99,7 +102,7 @@ local function cancel(context, params)
   local running, id = context.client.running, params.requestId
   local job = id ~= nil and running[id]
   if not job then return end
-  running[id] = nil
+  running[id], cancelled[job] = nil, true
   job:stop()
 end
 
@@ -122,7 +125,7 @@ end
 
 local function call(context, method, params, id)
   local version = version_of(params)
-  local request = requests[method] or failure.raise("method", "there is no method '%s'", method)
+  local request = requests[method] or failure.raise("method", "there is no method %s", described(method))
   if not version and not context.client.version and not needs_no_version[method] then failure.raise("request", "%s: expected initialize first", method) end
   local result = request(context, params, id)
   if version and type(result) == "table" and result ~= messages.no_answer then
@@ -139,10 +142,11 @@ function mcp.answer(server, client, line)
   local function reply(text)
     if text then client:send(text .. "\n") end
   end
-  messages.serve(line, reply, function(method, params, id) return call(context, method, params, id) end, function(method, params)
+  local function is_long(method, params)
     local name = method == "tools/call" and type(params.name) == "string" and tools.method_of(server, params.name)
     return name and methods.is_long(server.session, name) or false
-  end)
+  end
+  messages.serve(line, {reply = reply, is_long = is_long, call = function(method, params, id) return call(context, method, params, id) end})
 end
 
 mcp.refuse_long = messages.refuse_long

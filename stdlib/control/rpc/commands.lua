@@ -98,7 +98,7 @@ function commands.run(context, command, params)
   local session = context.session
   local ok, args = pcall(arguments.read, command, params)
   if not ok then error(setmetatable(failure.of(args, "params"), failure.class), 0) end
-  local given = files.confine(context.server, command, params)
+  local given = files.confine(context.server, command, args)
   local planner = command.name:match "^planner%.(.+)$"
   if planner then files.check_planner(planner, given) end
   if commands.is_long(command) then return run_long(context, command, given) end

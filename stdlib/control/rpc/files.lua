@@ -1,5 +1,6 @@
 --- Files that JSON-RPC clients may name: none, unless the server has a folder; then those below it, after resolving links.
 local canonical = require "clench.canonical"
+local described = require "clench.described"
 local failure = require "clench.control.rpc.failure"
 local with_ending = require "clench.session.with_ending"
 local files = {}
@@ -37,7 +38,7 @@ local function path_below(folder, name, path)
   for part in path:gmatch "[^/]+" do is_outside = is_outside or part == ".." end
   local whole = folder .. "/" .. path
   is_outside = is_outside or leads_out(folder, whole) or leads_out(folder, whole:gsub("%.[^./]*$", "") .. "_files/x")
-  if is_outside then failure.raise("refused", "%s: '%s' does not lie below the server's folder", name, path) end
+  if is_outside then failure.raise("refused", "%s: %s does not lie below the server's folder", name, described(path)) end
   return whole
 end
 
@@ -60,6 +61,7 @@ end
 --- The arguments of a command, with paths that lie below the server's folder.
 function files.confine(server, command, args)
   local name = command.name
+  if name:find "^sensors%.connect_" then failure.raise("refused", "%s: devices are connected by the program of the server only", name) end
   if not names_files(command) then return args end
   if not server.folder then failure.raise("refused", "%s: this server reads and writes no files (it was started without a folder)", name) end
   if not known[name] then failure.raise("refused", "%s: a client cannot run commands that scripts have added and that name files", name) end
@@ -79,7 +81,7 @@ local planners = {primitive = true, sample = true, antipodal = true, random = tr
 
 --- Checks that a planner is known, and that its options name no files.
 function files.check_planner(planner, options)
-  if not planners[planner] then failure.raise("params", "planner: expected primitive, sample, antipodal, random, anneal, loop or guided, got %s", planner) end
+  if not planners[planner] then failure.raise("params", "planner: expected primitive, sample, antipodal, random, anneal, loop or guided, got %s", described(planner)) end
   if options.root ~= nil or type(options.primitives) == "string" then failure.raise("refused", "options of a planner must not name files") end
 end
 

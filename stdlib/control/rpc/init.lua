@@ -36,26 +36,36 @@ local function describe(context, args)
 end
 
 methods.add {
-  {name = "hello", text = "Opens the connection for all other methods.",
+  {name = "hello", reads = true, text = "Opens the connection for all other methods.",
    parameters = {{name = "token", type = "string", optional = true, text = "the server's"}, {name = "client", type = "string", optional = true, text = "name of the program"}}, run = hello},
-  {name = "describe", text = "Methods and their parameters.", parameters = {{name = "method", type = "string", optional = true, text = "only this one"}}, run = describe},
+  {name = "describe", reads = true, text = "Methods and their parameters.", parameters = {{name = "method", type = "string", optional = true, text = "only this one"}}, run = describe},
 }
 
 local function notify(client, method, params) messages.notify(client, method, values.of(params)) end
 
---- Answers a line.
-function rpc.answer(server, client, line)
+-- how the requests of a client are answered
+local function new_answerer(server, client)
   local session = server.session
   local context = {server = server, client = client, session = session, notify = notify}
-  local function reply(text)
+  local answerer = {}
+  function answerer.reply(text)
     if text then client:send(text .. "\n") end
     if (client.wrong_tokens or 0) >= max_wrong_tokens then client:finish "wrong tokens" end
   end
-  local function call(name, params)
+  function answerer.call(name, params)
     if not client.is_authorized and name ~= "hello" then failure.raise("unauthorized", "%s: expected hello with the server's token first", shown(name)) end
     return values.of(methods.call(context, name, params, client.is_authorized))
   end
-  messages.serve(line, reply, call, function(name) return client.is_authorized and methods.is_long(session, name) end)
+  function answerer.hold() client:hold() end
+  function answerer.release() client:release() end
+  function answerer.is_long(name) return client.is_authorized and methods.is_long(session, name) end
+  return answerer
+end
+
+--- Answers a line.
+function rpc.answer(server, client, line)
+  client.answerer = client.answerer or new_answerer(server, client)
+  messages.serve(line, client.answerer)
 end
 
 rpc.refuse_long, rpc.prepare, rpc.drop = messages.refuse_long, commands.prepare, subscriptions.drop

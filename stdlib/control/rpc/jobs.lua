@@ -85,15 +85,15 @@ jobs.methods = {
      files.check_planner(args.planner, args.options)
      return {job = jobs.keep(context, clench.plan.start(args.planner, entity_options(context.session, args.options)))}
    end},
-  {name = "job.list", text = "All jobs of this server.", parameters = {}, run = function(context)
+  {name = "job.list", reads = true, text = "All jobs of this server.", parameters = {}, run = function(context)
     local out = {}
     for number, kept in pairs(context.server.jobs) do out[#out + 1] = described_job(number, kept) end
     table.sort(out, function(x, y) return x.job < y.job end)
     return out
   end},
-  {name = "job.state", text = "State and progress of a job.", parameters = {job_parameter},
+  {name = "job.state", reads = true, text = "State and progress of a job.", parameters = {job_parameter},
    run = function(context, args) return described_job(args.job, number_of(context, args.job)) end},
-  {name = "job.result", text = "The result of a job that is over.", parameters = {job_parameter}, run = function(context, args)
+  {name = "job.result", reads = true, text = "The result of a job that is over.", parameters = {job_parameter}, run = function(context, args)
     local kept = number_of(context, args.job)
     if not is_over[kept.job.state] then failure.raise("failed", "job %d is not over", args.job) end
     if kept.problem then error(kept.problem, 0) end

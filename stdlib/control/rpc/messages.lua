@@ -2,6 +2,7 @@
 local failure = require "clench.control.rpc.failure"
 local is_stopped = require "clench.is_stopped"
 local null_ids = require "clench.control.rpc.null_ids"
+local new_turn = require "clench.control.turn"
 local messages = {}
 
 local max_batch = 1000  -- requests
@@ -39,21 +40,34 @@ function messages.encode(message)
   return clench.json.encode {jsonrpc = "2.0", id = message.id, error = failure.of(text)}
 end
 
+-- the response with a result, as messages.encode writes it
+local function response(id, result)
+  local ok, text = pcall(clench.json.encode, result)
+  if not ok then return messages.encode {jsonrpc = "2.0", id = id, result = result} end
+  return ('{"id":%s,"jsonrpc":"2.0","result":%s}'):format(math.type(id) == "integer" and id or clench.json.encode(id), text)
+end
+
+local function result_of(message, call)
+  local params = check_form(message)
+  return call(message.method, params, message.id)
+end
+
 -- the response to a request, as text; nil: it is a notification
 local function respond(message, call, has_null_id)
-  local ok, result = pcall(function()
-    local params = check_form(message)
-    return call(message.method, params, message.id)
-  end)
+  local ok, result = pcall(result_of, message, call)
   if not ok and is_stopped(result) then error(result, 0) end
   local id = type(message) == "table" and not is_list(message) and message.id
   local is_request = has_null_id or id ~= nil or not ok and result.code == failure.request
   if not is_request or ok and result == messages.no_answer then return nil end
-  if ok then return messages.encode {jsonrpc = "2.0", id = is_id(id) and id or null, result = result} end
-  return messages.encode {jsonrpc = "2.0", id = is_id(id) and id or null, error = failure.of(result)}
+  id = is_id(id) and id or null
+  if ok then return response(id, result) end
+  return messages.encode {jsonrpc = "2.0", id = id, error = failure.of(result)}
 end
 
-local function respond_to_all(message, call, line)
+local function no_pause() end
+
+-- pause: called between the requests of a batch
+local function respond_to_all(message, call, line, pause)
   local has_null_id = null_ids(line)
   if not is_list(message) then return respond(message, call, has_null_id[1]) end
   if #message == 0 or #message > max_batch then
@@ -61,13 +75,21 @@ local function respond_to_all(message, call, line)
     return not ok and messages.encode {jsonrpc = "2.0", id = null, error = failure.of(problem)}
   end
   local responses = {}
-  for i, one in ipairs(message) do responses[#responses + 1] = respond(one, call, has_null_id[i]) end
+  for i, one in ipairs(message) do
+    responses[#responses + 1] = respond(one, call, has_null_id[i])
+    pause()
+  end
   if #responses > 0 then return "[" .. table.concat(responses, ",") .. "]" end
 end
 
+local function is_long_request(message, is_long)
+  return type(message) == "table" and type(message.method) == "string" and is_long(message.method, type(message.params) == "table" and message.params or {})
+end
+
 local function has_long(message, is_long)
-  for _, one in ipairs(is_list(message) and message or {message}) do
-    if type(one) == "table" and type(one.method) == "string" and is_long(one.method, type(one.params) == "table" and one.params or {}) then return true end
+  if not is_list(message) then return is_long_request(message, is_long) end
+  for _, one in ipairs(message) do
+    if is_long_request(one, is_long) then return true end
   end
   return false
 end
@@ -79,21 +101,35 @@ local function decoded(line)
   return clench.json.decode(line)
 end
 
+-- Answers a batch in a task: others are served meanwhile, further requests of its client later.
+local function serve_in_turns(message, line, answerer)
+  answerer.hold()
+  clench.loop.spawn(function()
+    answerer.reply(respond_to_all(message, answerer.call, line, new_turn()))
+    answerer.release()
+  end)
+end
+
 --- Answers a line. Lines with long requests are answered in separate tasks, while other lines are served.
 ---@param line string
----@param reply fun(text: string?)  sends the answer, if there is one
----@param call fun(method: string, params: table, id: any): any  result of a request, as plain data
----@param is_long fun(method: string, params: table): boolean
-function messages.serve(line, reply, call, is_long)
+---@param answerer table  with these functions:
+---  reply(text: string?)  sends the answer, if there is one
+---  call(method: string, params: table, id: any): any  result of a request, as plain data
+---  is_long(method: string, params: table): boolean
+---  hold(), release()  keep further requests of its client back; nil if there are no other clients
+function messages.serve(line, answerer)
   if not line:find "%S" then return end
   local ok, message = pcall(decoded, line)
   if not ok then
     if is_stopped(message) then error(message, 0) end
-    return reply(messages.encode {jsonrpc = "2.0", id = null, error = {code = failure.parse, message = failure.of(message).message}})
+    return answerer.reply(messages.encode {jsonrpc = "2.0", id = null, error = {code = failure.parse, message = failure.of(message).message}})
   end
-  if not has_long(message, is_long) then return reply(respond_to_all(message, call, line)) end
-  clench.loop.spawn(function() reply(respond_to_all(message, call, line)) end)
-  coroutine.yield()  -- it begins before the next request of any client is served
+  if has_long(message, answerer.is_long) then
+    clench.loop.spawn(function() answerer.reply(respond_to_all(message, answerer.call, line, no_pause)) end)
+    return coroutine.yield()  -- it begins before the next request of any client is served
+  end
+  if answerer.hold and is_list(message) and #message > 1 then return serve_in_turns(message, line, answerer) end
+  answerer.reply(respond_to_all(message, answerer.call, line, no_pause))
 end
 
 --- Sends a notification.

@@ -43,17 +43,25 @@ function methods.describe(session, name)
                     long = methods.is_long(session, name), command = own[name] == nil}
 end
 
+-- a live page without control only reads
+local function check_permitted(client, name, method)
+  if client.only_reads and not (method and method.reads) then
+    failure.raise("refused", "%s: this page shows the world only; it moves it if the server has control = true (clench serve --control)", name)
+  end
+end
+
 --- The result of a request that is well-formed.
 ---@param suggests boolean  may an error show names of other methods?
 function methods.call(context, name, params, suggests)
   local method = own[name]
+  local command = not method and commands.find(context.session, name) or nil
+  if not method and not command then failure.raise("method", "there is no method %s%s", shown(name), suggests and suggest(name, methods.names(context.session)) or "") end
+  check_permitted(context.client, name, method)
   if method then
     local ok, args = pcall(arguments.read, method, params)
     if not ok then error(setmetatable(failure.of(args, "params"), failure.class), 0) end
     return method.run(context, args)
   end
-  local command = commands.find(context.session, name)
-  if not command then failure.raise("method", "there is no method %s%s", shown(name), suggests and suggest(name, methods.names(context.session)) or "") end
   return commands.run(context, command, params)
 end
 

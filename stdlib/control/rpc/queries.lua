@@ -2,6 +2,7 @@
 local arguments = require "clench.session.arguments"
 local described = require "clench.described"
 local failure = require "clench.control.rpc.failure"
+local scene_key = require "clench.page.scene_key"
 local queries = {}
 
 local function world_of(context) return context.session.world or failure.raise("failed", "no world is open") end
@@ -35,8 +36,15 @@ local function field_of(thing, field)
   return value
 end
 
+local max_fields = 1000  -- of one request
+
+local function check_count(count)
+  if count > max_fields then failure.raise("refused", "at most %d fields are read in one request, got %d", max_fields, count) end
+end
+
 local function check_names(fields)
   check_list("fields", fields)
+  check_count(#fields)
   for i, field in ipairs(fields) do
     if type(field) ~= "string" then failure.raise("params", "fields[%d]: expected a string", i) end
   end
@@ -53,11 +61,13 @@ add("get", "Fields of the world, of a body or of a robot, by their names in scri
     {{name = "of", type = "string", optional = true, text = "address; the world by default"}, {name = "fields", type = "table", text = "names"}},
     function(context, args) return read_fields(context, args.of, args.fields) end)
 
-add("read", "Fields of several things in one call.", {{name = "items", type = "table", text = "a list of {of, fields}"}}, function(context, args)
+add("read", "Fields of several things in one call, at most 1000.", {{name = "items", type = "table", text = "a list of {of, fields}"}}, function(context, args)
   check_list("items", args.items)
-  local out = {}
+  local out, count = {}, 0
   for i, item in ipairs(args.items) do
     if type(item) ~= "table" or type(item.fields) ~= "table" then failure.raise("params", "items[%d]: expected {of, fields}", i) end
+    count = count + #item.fields
+    check_count(math.max(count, i))
     out[i] = read_fields(context, item.of, item.fields)
   end
   return out
@@ -80,9 +90,20 @@ end
 
 add("world.state", "Time, and poses, DOFs and velocities of objects and robots.", {}, function(context) return queries.state(world_of(context)) end)
 
-add("world.list", "Addresses of bodies and robots.", {}, function(context)
+--- The poses of all bodies, in their order: seven numbers each, x y z [m], then the quaternion w x y z.
+function queries.poses(world)
+  local out = {}
+  for i, body in ipairs(world.bodies) do
+    local pose = body.pose
+    local p, q = pose.position, pose.quat
+    out[i] = {p.x, p.y, p.z, q[1], q[2], q[3], q[4]}
+  end
+  return out
+end
+
+add("world.list", "Addresses of bodies and robots, and a text that is equal for worlds of the same bodies and shapes.", {}, function(context)
   local world = world_of(context)
-  return {robots = world.robots, objects = world.objects, obstacles = world.obstacles, bodies = world.bodies}
+  return {robots = world.robots, objects = world.objects, obstacles = world.obstacles, bodies = world.bodies, scene = scene_key(world)}
 end)
 
 -- two bodies or robots, either of which may be absent
@@ -92,8 +113,8 @@ local function pair_of(context, args)
   return a, b
 end
 
--- every contact once: by the first of the two bodies that list it
-local function all_contacts(world)
+--- Every contact once: by the first of the two bodies that list it.
+function queries.contacts(world)
   local out, seen = {}, {}
   for _, body in ipairs(world.bodies) do
     for _, contact in ipairs(body.contacts) do
@@ -106,7 +127,7 @@ end
 
 add("world.contacts", "Contacts between two bodies or robots, of one, or of all.", {a, b}, function(context, args)
   local world = world_of(context)
-  if args.a == nil and args.b == nil then return all_contacts(world) end
+  if args.a == nil and args.b == nil then return queries.contacts(world) end
   return world:contacts(pair_of(context, args))
 end)
 

@@ -4,7 +4,8 @@ local arguments = require "clench.session.arguments"
 local failure = require "clench.control.rpc.failure"
 local queries = require "clench.control.rpc.queries"
 
-local max_seconds = 0.1  -- maximum simulated time of one request, during which no other client is served
+-- maximum simulated time, and number of steps, of one request, during which no other client is served
+local max_seconds, max_steps = 0.1, 1000
 
 -- calls apply(robot, values) for each robot of {address: values}
 local function each_robot(session, name, given, apply)
@@ -24,12 +25,14 @@ return {
    run = function(context, args)
      local session = context.session
      local world = session.world or failure.raise("failed", "no world is open")
+     local dt = args.dt or world.time_step
+     if dt > max_steps * world.time_step then failure.raise("params", "dt: %g s are more than %d time steps of %g s", dt, max_steps, world.time_step) end
      each_robot(session, "efforts", args.efforts, function(robot, efforts)
        if robot.controller ~= "none" and robot.controller ~= "effort" then robot.controller = "none" end
        robot:set_forces(efforts)
      end)
      each_robot(session, "targets", args.targets, function(robot, targets) robot:set_targets(targets) end)
-     world:run(args.dt or world.time_step)
+     world:run(dt)
      return args.state and queries.state(world) or {time = world.time}
    end},
 }

@@ -1,4 +1,5 @@
 --- Subscriptions of JSON-RPC clients: to events, in order and without loss, and to snapshots, of which only the latest is sent.
+local described = require "clench.described"
 local failure = require "clench.control.rpc.failure"
 local queries = require "clench.control.rpc.queries"
 local values = require "clench.control.rpc.values"
@@ -37,7 +38,7 @@ end
 local function subscribe(context, args)
   local event = args.event
   if not of_world[event] and not of_session[event] then
-    failure.raise("params", "event: expected contact, contact_lost, limit, changed, diagnostic or result, got %s", event)
+    failure.raise("params", "event: expected contact, contact_lost, limit, changed, diagnostic or result, got %s", described(event))
   end
   local number = new_number(context)
   local client, notify = context.client, context.notify
@@ -47,30 +48,57 @@ local function subscribe(context, args)
   return {subscription = number}
 end
 
--- the text of a snapshot, created once for all clients with the same request at the same time
-local function snapshot_text(server)
-  local world = server.session.world
-  if not world then return "null" end
-  local kept = server.snapshot
-  local now = clench.loop.time()
-  if not kept or now - kept.time > 0.0005 then
-    kept = {time = now, text = clench.json.encode(values.of(queries.state(world)))}
-    server.snapshot = kept
+local function snapshot_of(world, parts)
+  local value = queries.state(world)
+  if parts.poses then value.poses = queries.poses(world) end
+  if parts.contacts then value.contacts = queries.contacts(world) end
+  return value
+end
+
+local function snapshot_text(world, parts) return world and clench.json.encode(values.of(snapshot_of(world, parts))) or "null" end
+
+-- sends a snapshot to the subscribers of a group whose last one differs from it
+local function send_snapshots(server, group)
+  local text = snapshot_text(server.session.world, group.parts)
+  for _, subscriber in ipairs {table.unpack(group.subscribers)} do
+    local client = subscriber.client
+    -- a client that has not yet received the last one is sent a later one
+    if client.port.queued == 0 and text ~= subscriber.last then
+      subscriber.last = text
+      client:send(('{"jsonrpc":"2.0","method":"snapshot","params":{"subscription":%d,"value":%s}}\n'):format(subscriber.number, text))
+    end
   end
-  return kept.text
+end
+
+-- subscribers to the same content at the same rate share a timer and a text
+local function group_of(server, parts)
+  local key = ("%.17g %s %s"):format(parts.rate, parts.poses, parts.contacts)
+  local groups = server.snapshot_groups or {}
+  server.snapshot_groups = groups
+  if not groups[key] then
+    local group = {parts = parts, subscribers = {}}
+    group.timer = clench.loop.every(1 / parts.rate, function() send_snapshots(server, group) end)
+    function group.finish()
+      group.timer:remove()
+      groups[key] = nil
+    end
+    groups[key] = group
+  end
+  return groups[key]
+end
+
+local function remove(group, subscriber)
+  for i, one in ipairs(group.subscribers) do
+    if one == subscriber then table.remove(group.subscribers, i) break end
+  end
+  if #group.subscribers == 0 then group.finish() end
 end
 
 local function subscribe_state(context, args)
-  local number = new_number(context)
-  local client, server, last = context.client, context.server, nil
-  local timer = clench.loop.every(1 / args.rate, function()
-    if client.port.queued > 0 then return end  -- a later one replaces it
-    local text = snapshot_text(server)
-    if text == last then return end
-    last = text
-    client:send(('{"jsonrpc":"2.0","method":"snapshot","params":{"subscription":%d,"value":%s}}\n'):format(number, text))
-  end)
-  client.subscriptions[number] = function() timer:remove() end
+  local number, client = new_number(context), context.client
+  local group, subscriber = group_of(context.server, args), {client = client, number = number}
+  table.insert(group.subscribers, subscriber)
+  client.subscriptions[number] = function() remove(group, subscriber) end
   return {subscription = number}
 end
 
@@ -83,11 +111,13 @@ function subscriptions.drop(client)
 end
 
 subscriptions.methods = {
-  {name = "subscribe", text = "Sends each event of a kind as a notification \"event\": in order, and none is lost.",
+  {name = "subscribe", reads = true, text = "Sends each event of a kind as a notification \"event\": in order, and none is lost.",
    parameters = {{name = "event", type = "string", text = "contact, contact_lost, limit (of the running world); changed, diagnostic, result (of the session)"}}, run = subscribe},
-  {name = "subscribe_state", text = "Sends the state of the world as a notification \"snapshot\" whenever it has changed, as of world.state.",
-   parameters = {{name = "rate", type = "number", min = 0.01, max = 1000, default = 30, unit = "Hz", text = "maximum rate"}}, run = subscribe_state},
-  {name = "unsubscribe", text = "Ends a subscription.", parameters = {{name = "subscription", type = "integer", text = "its number"}}, run = function(context, args)
+  {name = "subscribe_state", reads = true, text = "Sends the state of the world as a notification \"snapshot\" whenever it has changed, as of world.state.",
+   parameters = {{name = "rate", type = "number", min = 0.01, max = 1000, default = 30, unit = "Hz", text = "maximum rate"},
+                 {name = "poses", type = "boolean", default = false, text = "true: with the poses of all bodies, seven numbers each: x y z [m], quaternion w x y z"},
+                 {name = "contacts", type = "boolean", default = false, text = "true: with all contacts, as of world.contacts"}}, run = subscribe_state},
+  {name = "unsubscribe", reads = true, text = "Ends a subscription.", parameters = {{name = "subscription", type = "integer", text = "its number"}}, run = function(context, args)
     local list = context.client.subscriptions or {}
     local stop = list[args.subscription] or failure.raise("params", "subscription: there is no subscription %d", args.subscription)
     stop()

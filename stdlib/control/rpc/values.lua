@@ -18,7 +18,17 @@ end
 
 local convert
 
+-- is it a list of finite numbers, which need no conversion?
+local function is_numbers(list)
+  for i = 1, #list do
+    local x = list[i]
+    if type(x) ~= "number" or x - x ~= 0 then return false end
+  end
+  return #list > 0
+end
+
 local function list_or_record(value, depth)
+  if is_numbers(value) then return value end
   local out = {}
   for key, item in pairs(value) do
     out[type(key) == "string" and in_utf8(key) or key] = convert(item, depth + 1)
@@ -38,10 +48,11 @@ local function contact(value, depth)
 end
 
 function convert(value, depth)
-  local kind = clench.type(value)
+  local plain = type(value)
+  if plain == "number" then return value - value == 0 and value or null end
+  if plain == "string" then return in_utf8(value) end
   if value == nil then return null end
-  if kind == "number" then return value - value == 0 and value or null end
-  if kind == "string" then return in_utf8(value) end
+  local kind = clench.type(value)
   if kind == "body" or kind == "robot" then return values.address(value) end
   if kind == "contact" then return contact(value, depth) end
   if kind == "boolean" or kind == "vec3" or kind == "pose" or kind == "grasp" or kind == "grasps" or value == null then return value end

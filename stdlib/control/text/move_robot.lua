@@ -27,11 +27,13 @@ local function move(robot, goals, steps)
 end
 
 --- Moves a robot to values in the protocol's units.
+---@param world world
+---@param robot robot  of it
 ---@param values number[]
 ---@param steps number[]  only their proportions matter
 ---@return string[] reply  a line per DOF with the actual value
-return function(robot, values, steps)
-  local factors = units.of_dofs(robot)
+return function(world, robot, values, steps)
+  local factors = units.of_dofs(world, robot)
   for i in ipairs(values) do values[i], steps[i] = values[i] / factors[i], math.abs(steps[i]) / factors[i] end
   move(robot, values, steps)
   local reply = {}

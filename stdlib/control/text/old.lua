@@ -37,7 +37,7 @@ local function move(pending)
   end
   words:done()
   for r, robot in ipairs(pending.robots) do
-    local values = move_robot(robot, moves[r].values, moves[r].steps)
+    local values = move_robot(pending.world, robot, moves[r].values, moves[r].steps)
     table.move(values, 1, #values, #reply + 1, reply)
   end
   return reply
@@ -51,7 +51,7 @@ local function set_dof_values(world, words, _, state)
   local needed = 0
   for _, robot in ipairs(chosen) do needed = needed + numbers_needed(robot) end
   if needed == 0 then return {} end
-  state.pending = {robots = chosen, numbers = {}, needed = needed}
+  state.pending = {world = world, robots = chosen, numbers = {}, needed = needed}
   return {}
 end
 

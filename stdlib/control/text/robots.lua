@@ -23,7 +23,7 @@ function commands.getDOFVals(world, words)
   for _, robot in ipairs(robots) do
     local values = robot.dofs
     reply[#reply + 1] = tostring(#values)
-    units.add_values(reply, values, (units.of_dofs(robot)))
+    units.add_values(reply, values, (units.of_dofs(world, robot)))
   end
   return reply
 end
@@ -37,7 +37,7 @@ function commands.moveDOFs(world, words)
   if count ~= #robot.dofs then words.fail("robot has %d DOF.", #robot.dofs) end
   local values, steps = words:numbers(count, "values"), words:numbers(count, "steps")
   words:done()
-  return move_robot(robot, values, steps)
+  return move_robot(world, robot, values, steps)
 end
 
 -- setDOFForces L, then for each robot: n f1 ... fn
@@ -52,7 +52,7 @@ function commands.setDOFForces(world, words)
   words:done()
   -- nothing is set unless the complete line is right
   for r, robot in ipairs(robots) do
-    local _, factors = units.of_dofs(robot)
+    local _, factors = units.of_dofs(world, robot)
     for i, range in ipairs(robot.effort_ranges) do forces[r][i] = clamp(forces[r][i] / factors[i], range[1], range[2]) end
     robot.controller = "none"
     robot:set_forces(forces[r])

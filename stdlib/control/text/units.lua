@@ -28,13 +28,27 @@ local function slides(robot)
   return list
 end
 
---- Factor from SI to the protocol's unit, of values (rad, mm) and efforts, per DOF.
-function units.of_dofs(robot)
+local known = setmetatable({}, {__mode = "k"})  -- by world: {robot, value, effort} by the name of the robot
+
+local function find_factors(robot)
   local value, effort = {}, {}
   for i, is_sliding in ipairs(slides(robot)) do
     value[i], effort[i] = is_sliding and 1e3 or 1, is_sliding and 1e6 or 1e9
   end
-  return value, effort
+  return {robot = robot, value = value, effort = effort}
+end
+
+--- Factors from SI to the protocol's unit, of values (rad, mm) and efforts, per DOF.
+function units.of_dofs(world, robot)
+  local of_world = known[world] or {}
+  known[world] = of_world
+  local name = robot.name
+  local factors = of_world[name]
+  if not factors or factors.robot ~= robot then
+    factors = find_factors(robot)
+    of_world[name] = factors
+  end
+  return factors.value, factors.effort
 end
 
 return units

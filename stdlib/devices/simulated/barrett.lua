@@ -85,6 +85,7 @@ end
 ---@option delay? number [s, >= 0] = 0  before each reply
 ---@option seed? integer [0 to 9007199254740992] = 1
 ---@return table hand # `path`, `unplug()`, `close()`; `motors`, `stops`: number of times that the motors were switched off
+---@effect edits
 --- > simulated = clench.devices.simulated.barrett {}
 --- > line = clench.port.serial {path = simulated.path}
 --- > line:write "123SFGET P\r"

@@ -42,6 +42,7 @@ end
 ---@option delay? number [s, >= 0] = 0  before each reply
 ---@option seed? integer [0 to 9007199254740992] = 1
 ---@return table glove # `path`, `sensors`, `state` (3: ready), `unplug()`, `close()`
+---@effect edits
 --- > simulated = clench.devices.simulated.cyberglove {}
 --- > #simulated.sensors, simulated.state  --> 22, 3
 --- > simulated:close()

@@ -185,6 +185,7 @@ end
 ---@option delay? number [s, >= 0] = 0  before each answer
 ---@option seed? integer [0 to 9007199254740992] = 1
 ---@return table bus # `path`, `motors` by id, `instructions`: number of broadcasts of each, `unplug()`, `close()`
+---@effect edits
 --- > simulated = clench.devices.simulated.dynamixel {ids = {1, 2}}
 --- > line = clench.port.serial {path = simulated.path}
 --- > line:write "\xFF\xFF\xFD\x00\x01\x03\x00\x01\x19\x4E"

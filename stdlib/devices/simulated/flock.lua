@@ -59,6 +59,7 @@ end
 ---@option delay? number [s, >= 0] = 0  before each record
 ---@option seed? integer [0 to 9007199254740992] = 1
 ---@return table flock # `path`, `poses`, `unplug()`, `close()`
+---@effect edits
 --- > simulated = clench.devices.simulated.flock {birds = 2}
 --- > #simulated.poses  --> 2
 --- > simulated:close()

@@ -52,6 +52,7 @@ end
 ---@option delay? number [s, >= 0] = 0  before each answer
 ---@option seed? integer [0 to 9007199254740992] = 1
 ---@return table gripper # `path`, `position`, `stops`: number of times that the fingers were stopped, `unplug()`, `close()`
+---@effect edits
 --- > simulated = clench.devices.simulated.robotiq {}
 --- > line = clench.port.serial {path = simulated.path}
 --- > line:write "\x09\x10\x03\xE8\x00\x03\x06\x01\x00\x00\x00\x00\x00\x72\xE1"

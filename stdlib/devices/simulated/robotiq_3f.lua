@@ -83,6 +83,7 @@ end
 ---@option delay? number [s, >= 0] = 0  before each answer
 ---@option seed? integer [0 to 9007199254740992] = 1
 ---@return table gripper # `path`, `axes` with `position` and `goal`, `mode`, `stops`: number of times that it was stopped, `unplug()`, `close()`
+---@effect edits
 --- > simulated = clench.devices.simulated.robotiq_3f {}
 --- > line = clench.port.serial {path = simulated.path}
 --- > line:write "\x09\x03\x07\xD0\x00\x01\x85\xCF"

@@ -52,6 +52,14 @@ local function posture_of(session, args)
   return robot, saved
 end
 
+-- a name that no robot of the world has
+local function free_name(world, name)
+  local taken, number = {}, 2
+  for _, robot in ipairs(world.robots) do taken[robot.name] = true end
+  while taken[name .. "_" .. number] do number = number + 1 end
+  return name .. "_" .. number
+end
+
 local function grasp_of(session, args)
   if args.grasp then return args.grasp end
   local job = arguments.find_job(session, args.job)
@@ -98,6 +106,21 @@ return {
      local robot, saved = posture_of(session, args)
      if robot.parent then return ("%s:set_dofs(%s)"):format(script.name_of(robot), script.literal(saved.dofs)) end
      return ("%s:set_posture(%s, %s)"):format(script.name_of(robot), script.literal(saved.pose), script.literal(saved.dofs))
+   end},
+  -- logged as calls, which read the hand's file again
+  {name = "grasp.clone_hand", label = "Clone Hand", menu = "Grasp", shortcut = "c", enabled = conditions.hand, parameters = {hand},
+   run = function(session, args)
+     local robot, world = arguments.find_robot(session, args.hand), session.world
+     local copy = world:add_robot(robot.source, {pose = robot.pose, name = free_name(world, robot.name)})
+     world:set_collision(false, robot, copy)
+     copy:set_dofs(robot.dofs)
+     return copy
+   end,
+   script = function(session, args)
+     local robot = arguments.find_robot(session, args.hand)
+     local name = free_name(session.world, robot.name)
+     return ("world:add_robot(%q, {pose = %s, name = %q})\nworld:set_collision(false, %s, world:robot(%q))\nworld:robot(%q):set_dofs(%s)"):format(
+       robot.source, script.literal(robot.pose), name, script.name_of(robot), name, name, script.literal(robot.dofs))
    end},
   -- logged as the resulting state, since the grasps of a planner may depend on the clock
   {name = "grasp.apply", label = "Apply Grasp…", menu = "Grasp", enabled = conditions.hand_and_object,

@@ -139,7 +139,7 @@ local function draw_notes(view, ui, state)
   ui:width(-90)
   state.name = ui:text_input("name##author", state.name)
   ui:width(-90)
-  local value, changed = ui:slider("confidence", state.confidence or 1, {min = 0, max = 1, format = "%.2f"})
+  local value, changed = ui:slider("confidence", state.confidence, {min = 0, max = 1, format = "%.2f"})
   if changed then state.confidence = math.max(0, math.min(1, value)) end
   state.notes = ui:text_input("##notes", state.notes, {lines = 3, hint = "notes"})
   ui:disabled(state.name == "", function(ui)
@@ -152,7 +152,7 @@ end
 local function take(view, state, grasp)
   view:run("grasp.apply", {grasp = grasp})
   local labels = grasp.labels
-  state.name, state.notes, state.confidence, state.pregrasp = labels.name or "", labels.notes or "", grasp.info.confidence, grasp.pregrasp
+  state.name, state.notes, state.confidence, state.pregrasp = labels.name or "", labels.notes or "", grasp.info.confidence or 1, grasp.pregrasp
   state.phases = labels.phases and clench.json.decode(labels.phases) or {}
 end
 
@@ -178,7 +178,7 @@ end
 local function draw(ui, view)
   local session = view.session
   if not (session.hand and session.object) then return ui:text("A hand and an object are needed.", {color = gray, wrap = true}) end
-  view.author = view.author or {phases = {}, notes = "", name = free_name(session), force = 1}
+  view.author = view.author or {phases = {}, notes = "", name = free_name(session), force = 1, confidence = 1}
   local state = view.author
   ui:text(("%s on %s"):format(session.hand.name, session.object.name))
   draw_frames(view, ui, state)

@@ -1,5 +1,5 @@
 --- Sliders for the amplitudes of the hand's eigengrasps, each of which can be fixed; a drag is one step of undo.
-local script = require "clench.session.script"
+local dialog = require "clench.view.dialog"
 
 -- the eigengrasps of a view's hand that are fixed
 local function fixed_of(view, hand)
@@ -41,18 +41,10 @@ end
 
 local function go_to_origin(view, hand) view:run("grasp.dofs", {hand = view:address(hand), dofs = hand.eigengrasps.origin}) end
 
--- makes the present posture the origin of the eigengrasps
-local function set_origin(view, hand)
-  local old = hand.eigengrasps
-  local options = {vectors = old.vectors, origin = hand.dofs}
-  view.session:begin_gesture("Set Origin", function()
-    return ("%s.eigengrasps = clench.eigengrasps %s"):format(script.name_of(hand), script.literal(options))
-  end)
-  hand.eigengrasps = clench.eigengrasps(options)
-  view.session:end_gesture()
+local function button(ui, view, label, name)
+  if ui:button(label) then dialog.open(view, view.session.commands[name]) end
+  ui:tooltip(("session:run(%q)"):format(name))
 end
-
-local function ask_for_file(view, title, done) view.ask = {title = title, text = "eigengrasps.xml", done = done} end
 
 local function draw(ui, view)
   local hand = view.session.hand
@@ -63,10 +55,13 @@ local function draw(ui, view)
   ui:tooltip "The posture consists of the amplitudes only; otherwise the part that they do not describe is kept."
   if ui:button "Go To Origin" then go_to_origin(view, hand) end
   ui:same_line()
-  if ui:button "Set Origin" then set_origin(view, hand) end
+  button(ui, view, "Set Origin", "grasp.set_origin")
   if ui:button "Close to Contacts" then view:run("grasp.autograsp", {hand = view:address(hand)}) end
   ui:same_line()
-  if ui:button "Save…" then ask_for_file(view, "Save Eigengrasps", function(path) hand.eigengrasps:save(path) end) end
+  button(ui, view, "Use Identity", "grasp.identity_eigengrasps")
+  button(ui, view, "Load…", "grasp.load_eigengrasps")
+  ui:same_line()
+  button(ui, view, "Save…", "grasp.save_eigengrasps")
 end
 
 return {name = "EigenGrasps", place = "right", tab = true, draw = draw}

@@ -1,8 +1,10 @@
---- Force optimization and stability analysis of the current grasp; if the load cannot be held, names what yields.
+--- Force optimization and stability analysis of the current grasp: forces for a load, the largest load, torques of the motors, and the loads that they hold.
 local edit = require "clench.view.edit"
-local gray, orange = {0.5, 0.5, 0.5}, {0.84, 0.37, 0}
+local results = require "clench.view.force_results"
+local gray = {0.5, 0.5, 0.5}
 
-local objectives = {"min_sum", "min_norm", "min_max", "max_margin"}
+local objectives = {"min_sum", "min_norm", "min_max", "max_margin", "max_margin_sum"}
+local coordinates = {"fx", "fy", "fz", "tx", "ty", "tz"}
 
 local function index_of(list, value)
   for i, item in ipairs(list) do
@@ -10,79 +12,114 @@ local function index_of(list, value)
   end
 end
 
-local function draw_options(view, ui, state)
+local function choose(ui, label, width, list, value)
+  ui:width(width)
+  local chosen, changed = ui:combo(label, index_of(list, value), list)
+  return changed and list[chosen] or value
+end
+
+-- a number of the state that is dragged or typed
+local function number(view, ui, label, owner, key, options)
+  local value = edit.number(view, ui, label, "forces " .. label, owner[key], options)
+  if value then owner[key] = math.max(options.min or value, value) end
+end
+
+local function draw_load(view, ui, state)
+  local object = view.session.object
+  if ui:radio("weight", not state.wrench) then state.wrench = nil end
+  ui:tooltip(("Weight of %s, %.3g kg"):format(object.name, object.mass))
+  ui:same_line()
+  if ui:radio("wrench", state.wrench ~= nil) then state.wrench = state.wrench or {0, 0, 0, 0, 0, 0} end
+  ui:tooltip "Any load, along the axes of the world, torques about the center of mass of the object [N, N m]"
+  if not state.wrench then return end
+  for i, name in ipairs(coordinates) do
+    if i % 3 ~= 1 then ui:same_line(6) end
+    ui:width(52)
+    number(view, ui, name, state.wrench, i, {speed = i <= 3 and 0.05 or 0.005, format = "%.3g"})
+  end
+end
+
+local function draw_limits(view, ui, state)
   ui:width(120)
-  local chosen, changed = ui:combo("objective", index_of(objectives, state.objective), objectives)
-  if changed then state.objective = objectives[chosen] end
-  local value
-  ui:width(120)
-  value = edit.number(view, ui, "max. force [N]", "max force", state.max_force, {speed = 0.1, min = 0, max = 1e5, format = "%.3g"})
-  if value then state.max_force = value end
+  number(view, ui, "max. force [N]", state, "max_force", {speed = 0.1, min = 0, max = 1e5, format = "%.3g"})
   ui:tooltip "Largest normal force of each contact; 0: no limit."
   state.torque_limits = ui:checkbox("torques of the motors", state.torque_limits == true)
   ui:tooltip "The motors stay within their limits."
 end
 
-local function keep(view, state, kind, result)
+-- torques that the motors keep, one per DOF: the force of its tendon, if it has one
+local function draw_torques(view, ui, state)
+  local hand = view.session.hand
+  local on, changed = ui:checkbox("constant torques", state.torques ~= nil)
+  ui:tooltip "The motors keep these torques at every load, one per DOF; of a DOF on springs, that of its tendon. Optimal Preload sets them."
+  if changed or state.torques and #state.torques ~= #hand.dofs then
+    state.torques = on and {} or nil
+    for i = 1, on and #hand.dofs or 0 do state.torques[i] = 0 end
+  end
+  for i, name in ipairs(state.torques and hand.dof_names or {}) do
+    ui:width(120)
+    number(view, ui, ("%s##torque%d"):format(name, i), state.torques, i, {speed = 0.01, format = "%.4g"})
+  end
+end
+
+local function ask(view, state, kind, options)
+  options.max_force = state.max_force > 0 and state.max_force or nil
+  local result = view:run("grasp." .. kind, options)
   state.kind, state.result, state.hash = kind, result, view.session.world:hash()
   view.shown_forces = result and result.forces and #result.forces > 0 and {forces = result.forces, stamp = view.stamp, hash = state.hash} or nil
+  return result
 end
 
-local function limit_of(state) return state.max_force > 0 and state.max_force or nil end
+-- loads of a preload: none, and the load times the factor
+local function loads_of(view, state)
+  local object, g = view.session.object, view.session.world.gravity
+  local load, scaled = state.wrench or {object.mass * g.x, object.mass * g.y, object.mass * g.z, 0, 0, 0}, {}
+  for i = 1, 6 do scaled[i] = state.factor * load[i] end
+  return {{0, 0, 0, 0, 0, 0}, scaled}
+end
 
-local function draw_buttons(view, ui, state)
-  if ui:button "Optimize" then
-    keep(view, state, "forces", view:run("grasp.forces", {objective = state.objective, max_force = limit_of(state), torque_limits = state.torque_limits or nil}))
-  end
+local function draw_questions(view, ui, state)
+  local torques = state.torques
+  if ui:button "Optimize" then ask(view, state, "forces", {load = state.wrench, objective = state.objective, torque_limits = state.torque_limits or nil}) end
+  ui:tooltip "Contact forces that hold the load"
   ui:same_line()
-  if ui:button "Stability" then keep(view, state, "stability", view:run("grasp.stability", {max_force = limit_of(state)})) end
-end
-
--- what yields, and at which fraction of the load
-local function draw_certificate(ui, certificate)
-  if not certificate then return end
-  local what = certificate.contact and "the contact of " .. (certificate.contact.link or certificate.contact.other).name
-    or certificate.dof and ("DOF %d"):format(certificate.dof) or "no single contact"
-  ui:text(("%s yields first."):format(what:gsub("^%l", string.upper)), {color = orange, wrap = true})
-  if certificate.power > 0 then ui:text(("%.1f %% of the load can be held."):format(100 * math.max(0, certificate.capacity) / certificate.power), {wrap = true}) end
-end
-
-local function draw_forces(ui, result)
-  ui:text("forces of the contacts [N]", {color = gray})
-  ui:table("optimal forces", {"link", "normal", "margin"}, {}, function(ui)
-    for i, force in ipairs(result.forces) do
-      ui:next_column() ui:text(("%d %s"):format(i, (force.contact.link or force.contact.other).name:gsub("^.*_(chain)", "%1")))
-      ui:next_column() ui:text(("%.3f"):format(force.normal))
-      ui:next_column() ui:text(("%.3f"):format(math.max(0, force.margin)))
-    end
-  end)
-end
-
-local function draw_torques(ui, torques)
-  local parts = {}
-  for i, torque in ipairs(torques) do parts[i] = ("%.3g"):format(torque) end
-  ui:text("torques [N m]: " .. table.concat(parts, ", "), {wrap = true})
-end
-
-local function draw_result(view, ui, state)
-  local result = state.result
-  if not result then return end
-  if state.hash ~= view.session.world:hash() then return ui:text("Something has moved since.", {color = gray}) end
-  local good = result.status == "optimal" or result.status == "stable"
-  ui:text(result.status, {color = good and {0, 0.5, 0.35} or orange})
-  if not good then draw_certificate(ui, result.certificate) end
-  if result.forces and #result.forces > 0 then draw_forces(ui, result) end
-  if result.joint_torques and #result.joint_torques > 0 then draw_torques(ui, result.joint_torques) end
+  state.objective = choose(ui, "##objective", 140, objectives, state.objective)
+  ui:tooltip "Objective that selects one of many sets of forces"
+  if ui:button "Stability" then ask(view, state, "stability", {load = state.wrench, torques = torques}) end
+  ui:tooltip "Can object and joints be in balance?"
+  ui:same_line()
+  if ui:button "Maximum Wrench" then
+    ask(view, state, "maximum_wrench", {direction = state.wrench, torque_limits = not torques and state.torque_limits or nil, torques = torques})
+  end
+  ui:tooltip "The largest multiple of the load that is held"
+  if ui:button "Optimal Preload" then
+    local result = ask(view, state, "preload", {loads = loads_of(view, state), locked = state.locked or nil})
+    if result and result.torques then state.torques = {table.unpack(result.torques)} end
+  end
+  ui:tooltip "The smallest torques that hold the object without a load, and under the load times the factor beside, without being adjusted"
+  ui:same_line()
+  ui:width(46)
+  number(view, ui, "x load", state, "factor", {speed = 0.05, min = 0.01, max = 1000, format = "%.3g"})
+  state.locked = ui:checkbox("locked joints", state.locked == true)
+  ui:tooltip "The preload presses first; then the joints do not move, as with worm gears, and the contacts yield as equal springs. Otherwise the torques stay constant."
+  if ui:button "Resistible Wrenches" then ask(view, state, "resistible_wrenches", {axes = {state.x, state.y}, torques = torques}) end
+  ui:tooltip "All wrenches in the plane of two coordinates that are held"
+  ui:text "in the plane of"
+  ui:same_line()
+  state.x = choose(ui, "##x", 56, coordinates, state.x)
+  ui:same_line()
+  state.y = choose(ui, "##y", 56, coordinates, state.y)
 end
 
 local function draw(ui, view)
   local session = view.session
   if not (session.hand and session.object) then return ui:text("A hand and an object are needed.", {color = gray, wrap = true}) end
-  view.forces = view.forces or {objective = "min_sum", max_force = 0}
-  ui:text(("load: weight of %s, %.3g kg"):format(session.object.name, session.object.mass), {color = gray, wrap = true})
-  draw_options(view, ui, view.forces)
-  draw_buttons(view, ui, view.forces)
-  draw_result(view, ui, view.forces)
+  view.forces = view.forces or {objective = "min_sum", max_force = 0, factor = 1.5, x = "fx", y = "fz"}
+  draw_load(view, ui, view.forces)
+  draw_limits(view, ui, view.forces)
+  draw_torques(view, ui, view.forces)
+  draw_questions(view, ui, view.forces)
+  results.draw(view, ui, view.forces)
 end
 
 return {name = "Forces", place = "right", tab = true, draw = draw}

@@ -47,6 +47,7 @@ not to its clones or snapshots.
 @param options? table  how often
 @option rate? number [Hz, > 0]  calls in a second of the world's time, at the first step at or after each multiple of 1 / rate; by default at each step
 @return table handle  `remove()` ends it
+@effect edits
 > count = 0
 > handle = world:on_step(function(world, dt) count = count + 1 end, {rate = 100})
 > world:run(0.1)
@@ -60,6 +61,7 @@ Runs a function concurrently with the world, as a coroutine: fn(task). `task.wai
 spawned; an error in one ends the run. A yield without values waits for the next step; a yield of anything else is an error.
 @param fn function  function that runs as a coroutine in the time of the world
 @return table handle  `remove()` ends it; `status`: "waiting", "done", "failed" or "removed"
+@effect edits
 > task = world:spawn(function(task) task.wait(0.02) seen = world.time end)
 > world:run(0.05)
 > seen, task.status  --> 0.02, done)"},
@@ -70,6 +72,7 @@ DOF reaches an end of its range, {kind, time, robot, dof, side, value}, with its
 @param event "contact"|"contact_lost"|"limit"  name of the event
 @param fn function  called at each such event
 @return table handle  `remove()` ends it
+@effect edits
 > touched = {}
 > handle = world:on("contact", function(e) touched[#touched + 1] = e.b.name end)
 > world:run(0.01)
@@ -83,6 +86,7 @@ functions(world) that return a number, a boolean, a vector, or a list of numbers
 @option rate? number [Hz, > 0] = 100  rows in a second of the world's time
 @option quantities table  bodies, robots and names in order, functions by their names
 @return log log  `rows`, a list of {time, ...}; `columns`, their names; `save(path)`, as .csv or .npz; `remove()` ends it
+@effect edits
 > log = world:log {rate = 50, quantities = {flask, "energy", height = function() return flask.pose.position.z end}}
 > world:run(0.1)
 > #log.rows, log.columns[1], log.columns[2]  --> 6, time, flask.position.x
@@ -93,6 +97,7 @@ Records a run of the world for films: its state at a fixed rate of simulation ti
 @param options? table  how often
 @option rate? number [Hz, > 0] = 30  states in a second of the world's time
 @return recording recording  `times`; `save(path, options)`, see the guide; `remove()` ends it
+@effect edits
 > film = world:record {rate = 20}
 > world:run(0.1)
 > #film.times  --> 3
@@ -100,10 +105,12 @@ Records a run of the world for films: its state at a fixed rate of simulation ti
     {"push", guarded<push_state>, R"(
 Saves the state of the world on top of its stack of states.
 @return integer depth  how many lie there now
+@effect edits
 > world:push()  --> 1)"},
     {"pop", guarded<pop_state>, R"(
 Restores the state that was pushed last, and removes it from the stack.
 @return integer depth  how many are left
+@effect edits
 > before = world:hash()
 > world:push()
 > world:run(0.05)

@@ -102,12 +102,14 @@ static const Entry joint_dynamics_methods[] = {
 Mass matrix of its DOFs at its present posture: half of v M v is the kinetic energy at DOF velocities v of the robot and everything that it
 carries, with its base fixed. It includes the armature of the joints.
 @return number[][] rows  one row and one column per DOF [kg m^2, kg m or kg]
+@effect reads
 > M = hand:mass_matrix()
 > #M, #M[1], M[1][2] == M[2][1]  --> 12, 12, true)"},
     {"bias_forces", method<[](const RobotHandle& x) { return of_robot(x).bias; }>, R"(
 Generalized forces on its DOFs due to velocities (Coriolis, centrifugal) and to weight, unless its motors compensate that: the efforts
 for which no DOF accelerates, without springs and friction of the joints.
 @return number[] forces  one per DOF [N m or N]
+@effect reads
 > hand.gravity_compensation = true
 > math.abs(hand:bias_forces()[1]) < 1e-12  --> true)"},
     {"inverse_dynamics", guarded<inverse_dynamics>, R"(
@@ -115,6 +117,7 @@ Motor efforts required for these accelerations of the DOFs, without contacts: fr
 springs and viscous friction of the joints, but not their dry friction.
 @param accelerations number[]  one per DOF [rad/s^2 or m/s^2]
 @return number[] forces  one per DOF, as set_forces takes them [N m or N]
+@effect reads
 > accelerations = {}
 > for i = 1, #hand.dofs do accelerations[i] = 0 end
 > #hand:inverse_dynamics(accelerations)  --> 12

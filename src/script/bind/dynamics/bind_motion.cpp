@@ -125,11 +125,13 @@ Applies a force in the next step only; forces add up. Obstacles and bases of rob
 cannot be pushed.
 @param force vec3  in world axes [N]
 @param point? vec3  where, in the world; its center of mass by default [m]
+@effect edits
 > flask:apply_force({0, 0, 1})
 > flask:apply_force({0, 0, 0 / 0})  --> error: force)"},
     {"apply_torque", guarded<apply_torque>, R"(
 Applies a torque in the next step only.
 @param torque vec3  in world axes [N m]
+@effect edits
 > flask:apply_torque({0, 0, 0.1})
 > flask:apply_torque({0, 0, 0 / 0})  --> error: torque)"},
     {"weld", guarded<weld_to>, R"(
@@ -137,11 +139,13 @@ Welds it to another body at their present relative pose: in runs the two move as
 Contacts between the two end. Their momentum is conserved, as in a perfectly inelastic collision. If a script moves one of them, they stay
 welded at the new relative pose. Collision tests are not affected.
 @param to body|robot  a body that does not hang on it by welds; of a robot its base
+@effect edits
 > flask:weld(hand.links[3])
 > flask.welded_to == hand.links[3]  --> true
 > flask:weld(hand.base)  --> error: is welded to)"},
     {"unweld", method<[](const Entity& x) { unweld(*x.world, x.id); }>, R"(
 Removes the weld: from then on it moves separately, starting at its present velocity.
+@effect edits
 > flask:weld(hand.base)
 > flask:unweld()
 > flask.welded_to  --> nil

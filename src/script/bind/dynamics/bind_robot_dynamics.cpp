@@ -92,7 +92,7 @@ static int set_targets(lua_State* L) {
   const auto targets = check_some_dofs(L, 2, robot);
   Table options(L, 3);
   const bool smooth = options.has("velocity");
-  const double velocity = smooth ? options.positive("velocity", 1) : 0;
+  const double velocity = options.number("velocity", 0);
   options.done();
   for (int i = 0; i < static_cast<int>(targets.size()); ++i) {
     if (!targets[static_cast<size_t>(i)]) continue;
@@ -181,6 +181,7 @@ static const Entry robot_dynamics_methods[] = {
 Sets the force of each motor from now on: in addition to that of its controller, or alone with the controller "none". DOFs that are
 absent from a table by names keep their forces.
 @param forces number[]|table<string, number>  [N m or N]
+@effect edits
 > hand:set_forces {dof2 = 0.5}
 > hand:set_forces {1}  --> error: expected 12)"},
     {"set_targets", guarded<set_targets>, R"(
@@ -189,17 +190,20 @@ by names keep theirs.
 @param dofs number[]|table<string, number>  [rad or m]
 @param options? table  how fast
 @option velocity? number [rad/s or m/s, > 0]  the largest on the way
+@effect edits
 > hand:set_targets({dof2 = 0.3}, {velocity = 1})
 > hand:set_targets({dof2 = 100})  --> error: must lie in)"},
     {"set_target_velocities", guarded<set_target_velocities>, R"(
 Sets the target velocities of its motors. DOFs that are absent from a table by names keep theirs.
 @param velocities number[]|table<string, number>  [rad/s or m/s]
+@effect edits
 > hand:set_target_velocities {dof2 = 0.1}
 > hand:set_target_velocities {1}  --> error: expected 12)"},
     {"has_closed", method<[](const RobotHandle& x) { return has_closed(*x.world, x.id); }>, R"(
 Has every finger closed? A finger has closed if its last link touches something, if it is at its limit, or if it is at rest after
 the expected closing time.
 @return boolean
+@effect reads
 > hand:has_closed()  --> false)"},
 };
 

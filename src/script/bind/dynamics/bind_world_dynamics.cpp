@@ -259,6 +259,7 @@ static const Entry world_dynamics_methods[] = {
 Simulates: all free bodies move under gravity, contacts and the motors of robots. Each step first moves bodies with
 their present velocities, then finds contacts, then solves for new velocities. The simulation time advances by exactly the given time.
 @param seconds number  [s]
+@effect long
 > world:run(0.01)
 > world.time  --> 0.01
 > world:run(-1)  --> error: expected a time from 0)"},
@@ -267,10 +268,12 @@ First half of a step: moves everything with its present velocity, until the time
 touch.
 @param dt number  [s]
 @return number passed  in (0, dt] [s]
+@effect edits
 > world:move_bodies(0.001)  --> 0.001)"},
     {"solve_velocities", guarded<solve_velocities>, R"(
 Second half of a step: computes the velocities that result after contacts, forces, motors and limits have acted for the given time.
 @param h number  what move_bodies gave [s]
+@effect edits
 > world:solve_velocities(world:move_bodies(0.001))
 > world.report.steps  --> 1)"},
     {"clear_forces", method<[](const WorldHandle& x) {
@@ -278,6 +281,7 @@ Second half of a step: computes the velocities that result after contacts, force
      }>,
      R"(
 Clears the forces and torques that `apply_force` and `apply_torque` have set for the next step.
+@effect edits
 > flask:apply_force({0, 0, 1})
 > world:clear_forces()
 > world.gravity = {0, 0, 0}
@@ -286,16 +290,19 @@ Clears the forces and torques that `apply_force` and `apply_torque` have set for
     {"momentum", guarded<get_momentum>, R"(
 Total momentum of all objects and robots; the angular momentum is about the origin of the world.
 @return {linear: vec3, angular: vec3}  [kg m/s], [kg m^2/s]
+@effect reads
 > world:momentum().linear  --> (0, 0, 0))"},
     {"energy", guarded<get_energy>, R"(
 Total energy of all objects and robots: kinetic, and potential relative to the origin of the world, including springs.
 @return {kinetic: number, potential: number}  [J]
+@effect reads
 > world:energy().kinetic  --> 0.0)"},
     {"average_contacts", guarded<average_contacts>, R"(
 Resultant contact force on each of the given bodies in the last step, and its center. Bodies on which nothing
 presses are left out.
 @param links body|body[]  link or links whose contacts are averaged
 @return {link: body, force: vec3, point: vec3, count: integer}[]  [N], [m]
+@effect reads
 > #world:average_contacts(hand)  --> 0)"},
 };
 

@@ -1,4 +1,5 @@
 #include "clench/grasp/force/equilibrium.h"
+#include "clench/grasp/force/preload.h"
 #include "clench/model/dof.h"
 #include "clench/model/effort_range.h"
 #include "clench/script/bind/grasp/grasps.h"
@@ -14,9 +15,9 @@ namespace clench {
 
 // --- options ---
 
-static std::optional<double> positive_if(Table& options, const char* key) {
+static std::optional<double> number_if(Table& options, const char* key) {
   if (!options.has(key)) return {};
-  return options.positive(key, 1);
+  return options.number(key);
 }
 
 // torque_limits: true, false, or a number for each DOF
@@ -34,8 +35,8 @@ static bool read_limits(Table& options, bool fallback, JointDemand& joints) {
 
 static void read_caps(Table& options, ForceOptions& forces) {
   forces.max_force = read_per_contact(options, "max_force");
-  forces.max_total_force = positive_if(options, "max_total_force");
-  forces.total_force = positive_if(options, "total_force");
+  forces.max_total_force = number_if(options, "max_total_force");
+  forces.total_force = number_if(options, "total_force");
 }
 
 // limits and totals of joints; forces.joints stays empty if they are not requested
@@ -43,7 +44,7 @@ static void read_joints(Table& options, ForceOptions& forces) {
   JointDemand joints;
   bool asked = read_limits(options, false, joints);
   joints.unlimited = !asked;
-  joints.total_torque = positive_if(options, "total_torque");
+  joints.total_torque = number_if(options, "total_torque");
   joints.unilateral = options.boolean("unilateral", false);
   joints.arms = options.boolean("arms", false);
   joints.link_weights = options.boolean("link_weights", false);
@@ -155,6 +156,10 @@ static int largest(lua_State* L) {
   asked.load = options.vector("direction", 6);
   read_caps(options, asked);
   read_joints(options, asked);
+  if (options.has("torques")) {
+    if (!asked.joints) asked.joints.emplace();
+    asked.joints->efforts = options.vector("torques");
+  }
   options.done();
   const ForceResult r = max_load(world_of(L, g), g.grasp, asked);
   push_result(L, g, r, r.status == ForceStatus::unbounded ? "unlimited" : status_name(r.status));
@@ -180,6 +185,32 @@ static int balance(lua_State* L) {
   options.done();
   const Equilibrium e = equilibrium(world_of(L, g), g.grasp, asked);
   push_result(L, g, e.result, status_name(e.status));
+  push_unlimited(L, g, asked.joints);
+  return 1;
+}
+
+static const char* preload_status(ConeStatus status) {
+  if (status == ConeStatus::optimal) return "optimal";
+  return status == ConeStatus::infeasible ? "infeasible" : "inaccurate";
+}
+
+static int preload(lua_State* L) {
+  const auto& g = self<GraspHandle>(L);
+  Table options(L, 2);
+  PreloadOptions asked;
+  for (const auto& load : options.rows("loads", 6))
+    asked.loads.push_back(Vector6d::Map(load.data()));
+  asked.locked = options.boolean("locked", false);
+  asked.max_force = read_per_contact(options, "max_force");
+  asked.joints.unlimited = !read_limits(options, true, asked.joints);
+  asked.joints.unilateral = options.boolean("unilateral", false);
+  asked.joints.arms = options.boolean("arms", false);
+  asked.joints.link_weights = options.boolean("link_weights", false);
+  options.done();
+  const Preload r = optimal_preload(world_of(L, g), g.grasp, asked);
+  push_record(L, {{"status", preload_status(r.status)}});
+  if (!r.normals.empty())
+    set_fields(L, {{"torques", r.efforts}, {"fraction", r.fraction}, {"normals", r.normals}});
   push_unlimited(L, g, asked.joints);
   return 1;
 }
@@ -221,8 +252,20 @@ remaining wrench; `residual`: its length, with torque over rho. `joint_torques`:
 the object, `twist`, along which the `power` of the load exceeds the `capacity` of caps and motors; `separation_rates`
 and `sliding_rates`: those of each contact along it; `force_limit_power`, `effort_limit_power`: parts of the capacity; `contact` or
 `dof`: the one that yields. `unlimited_efforts`: with torque_limits = true, names of the motors that have no limit; nil if all have one.
-@param options? {load?: number[], objective?: string, max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean, balance?: string}  max_force of each contact, or a list of one per contact, limit and value of their sum [N]; torque_limits: true, what each motor can exert, as in hand.effort_ranges; or a list of one per DOF, for both directions; without it motors give what is needed; total_torque: of all motors, closing [N m or N]; unilateral: motors do not open; arms: the motors of arms that carry the hand, too; link_weights: motors hold the links up as well, under the world's gravity; balance "nearest": the least unbalanced wrench instead
+@param options? table  the load, the limits and the objective
+@option load? number[] [N and N m]  wrench on the object that the contacts balance, {fx, fy, fz, tx, ty, tz}
+@option objective? "min_sum"|"min_norm"|"min_max"|"max_margin"|"max_margin_sum" = "min_sum"  what is optimized
+@option max_force? number|number[] [N, > 0]  largest normal force of each contact, or a list of one per contact
+@option max_total_force? number [N, > 0]  largest sum of the normal forces
+@option total_force? number [N, > 0]  prescribed sum of the normal forces
+@option torque_limits? boolean|number[] = false  true: what each motor can exert, as in hand.effort_ranges; or a list of one per DOF, for both directions; false: motors exert what is needed
+@option total_torque? number [N m or N, > 0]  prescribed sum over all motors, closing
+@option unilateral? boolean = false  true: motors do not open
+@option arms? boolean = false  true: also the motors of arms that carry the hand
+@option link_weights? boolean = false  true: motors also hold the links against gravity
+@option balance? "exact"|"nearest" = "exact"  nearest: the least unbalanced wrench
 @return table result  `status`, `forces`, `objective`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
+@effect reads
 > weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}
 > held = grasp:contact_forces{load = weight}
 > held.status, held.residual < 1e-9  --> optimal, true
@@ -233,18 +276,47 @@ and `sliding_rates`: those of each contact along it; `force_limit_power`, `effor
     {"max_load", guarded<largest>, R"(
 The largest multiple `load` of a wrench on the object that contact forces balance, in the axes of contact_forces.
 `status` is "unlimited" if no cap and no torque limits it. The `certificate` names the contacts that yield beyond it.
-`unlimited_efforts` as in contact_forces.
-@param options {direction: number[], max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean}  as in contact_forces
+`unlimited_efforts` as in contact_forces. With `torques` the motors keep these torques at every load; "infeasible" if they balance no multiple, 0
+included.
+@param options table  the direction and the limits
+@option direction number[] [N and N m]  wrench whose largest multiple is computed, {fx, fy, fz, tx, ty, tz}
+@like grasp:contact_forces  max_force, max_total_force, total_force, torque_limits, total_torque, unilateral, arms, link_weights
+@option torques? number[] [N m or N]  of the motors, one per DOF, which they keep at every load
 @return table result  `status`, `load`, `forces`, `margin`, `joint_torques`, `certificate`
+@effect reads
 > grasp:max_load{direction = {0, 0, -1, 0, 0, 0}, max_force = 10}.load > 1  --> true
 > grasp:max_load{direction = {0, 0, -1, 0, 0, 0}}.status  --> unlimited)"},
+    {"optimal_preload", guarded<preload>, R"(
+The smallest torques of the motors that hold the object under each of several loads without being adjusted: their largest fraction
+of the limits is minimized. By default the torques are constant, and a finger moves unless friction transmits the change of the
+load to the palm or to joints at rest; with `locked` the joints do not move, as with worm gears: the torques press before the load is
+applied, and each contact then yields as a spring, equally stiff in all directions. `status`: "optimal"; "infeasible" if no torques
+hold all loads; "inaccurate". `torques`: one per DOF; `fraction`: largest torque as a fraction of its limit, of motors without a limit
+in N m or N; `normals`: per load, the normal force of each contact [N]. At one of the loads some contact is at the edge of its cone:
+loads larger than the true ones leave a margin. `unlimited_efforts` as in contact_forces.
+@param options table  the loads and the limits
+@option loads number[][]  wrenches on the object, {fx, fy, fz, tx, ty, tz} [N and N m] each, held one at a time
+@option locked? boolean = false  true: the joints do not move under a load
+@option torque_limits? boolean|number[] = true  true: those of the motors; a list of one per DOF, for both directions; false: none
+@like grasp:contact_forces  max_force, unilateral, arms, link_weights
+@return table result  `status`, `torques`, `fraction`, `normals`
+@effect reads
+> preload = grasp:optimal_preload{loads = {{0, 0, -9.81 * flask.mass, 0, 0, 0}}, locked = true}
+> preload.status, #preload.torques, preload.fraction < 1  --> optimal, 12, true
+> grasp:optimal_preload{loads = {}}  --> error: expected at least one load, got none
+> grasp:optimal_preload{loads = {{1, 2}}}  --> error: 6)"},
     {"equilibrium", guarded<balance>, R"(
 Can the hand in its present posture hold the load (as in contact_forces)? Its joints must be in equilibrium too: by motors through their
 couplings, within hand.effort_ranges, by springs, and by the clutches of joints that have broken away. The palm resists any force. `status`: "stable"; "unstable": `unbalanced` is the smallest
 remaining wrench, and `certificate` names what yields; "moving": no contact forces balance the joints, so that a
 finger moves; "inaccurate".
-@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|string, max_force?: number|number[], arms?: boolean, link_weights?: boolean}  torque_limits: one per DOF, for both directions, or false for none where a motor exerts anything; torques: what the motors give, one per DOF [N m or N]; "springs": compliant DOFs hold by their springs alone, clutches at their full torque; max_force: of each contact, or one per contact [N]
+@param options? table  the load, the torques and the limits
+@option load? number[] [N and N m]  wrench on the object, {fx, fy, fz, tx, ty, tz}
+@option torque_limits? boolean|number[] = true  a list of one per DOF, for both directions; false: motors exert anything
+@option torques? number[]|"springs"|"limits" = "limits"  what the motors exert, one per DOF [N m or N]; springs: compliant DOFs hold by their springs alone, clutches at their full torque
+@like grasp:contact_forces  max_force, arms, link_weights
 @return table result  `status`, `forces`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
+@effect reads
 > grasp:equilibrium{load = {0, 0, -0.1, 0, 0, 0}}.status  --> stable
 > grasp:equilibrium{load = {0, 0, -1e4, 0, 0, 0}}.status  --> unstable
 > grasp:equilibrium{torques = {1}}  --> error: expected 12, one per DOF)"},
@@ -253,11 +325,13 @@ Grasp map, which takes contact forces to the wrench on the object: six rows, in 
 Columns contact by contact: the normal force; with friction, the forces along x and y of contact.frame; for soft
 contacts, the torque about the normal.
 @return number[][]
+@effect reads
 > #grasp:grasp_map(), #grasp:grasp_map()[1] == 3 * #grasp.contacts  --> 6, true)"},
     {"hand_jacobian", guarded<jacobian_rows>, R"(
 Velocity of the contacts per DOF: a row for each column of the grasp map, a column for each DOF, with the ratios of
 its joints. Its transpose takes contact forces to motor torques. Joints that have broken away are left out.
 @return number[][]
+@effect reads
 > #grasp:hand_jacobian()[1] == #hand.dofs  --> true)"},
 };
 

@@ -22,7 +22,7 @@ namespace clench {
 
 PerContact read_per_contact(Table& options, const char* key) {
   if (!options.has(key)) return {};
-  if (options.type(key) != LUA_TTABLE) return options.positive(key, 1);
+  if (options.type(key) != LUA_TTABLE) return options.number(key);
   const auto each = options.numbers(key);
   if (each.empty())
     fail("{}: {}: expected a number for each contact, got none", options.subject(), key);
@@ -213,7 +213,7 @@ static int grasp_space(lua_State* L) {
   if (is_gyration(table))
     options.rho = g.grasp.gyration_radius;
   else if (table.has("rho"))
-    options.rho = table.positive("rho", 1);
+    options.rho = table.number("rho");
   options.space = read_space_options(table);
   table.done();
   return push(L, space_of(g.grasp, options));
@@ -224,8 +224,14 @@ static const Entry grasp_functions[] = {
 The present grasp of a hand on an object. A grasp without contacts is not an error: it resists nothing.
 @param hand robot  hand that holds the object
 @param object body  object that is held
-@param options? {edges?: integer|string, rho?: number|string, soft?: boolean, normal_force?: number|number[], modulus?: string}  edges of the friction pyramids, 8, or "exact" for round cones; rho: torque length [m], by default the object's largest radius about its center of mass, or "gyration" for its radius of gyration; soft: false treats soft contacts as points, without torsional friction; normal_force: at which they are judged, 5 [N], or a list of one per contact; modulus: as of `patch:ellipse`
+@param options? table  how its contacts are rated
+@option edges? integer|"exact" [3 to 1000] = 8  of the friction pyramids; exact: round cones
+@option rho? number|"gyration" [m, > 0]  torque length, by default the object's largest radius about its center of mass; gyration: its radius of gyration
+@option soft? boolean = true  false: soft contacts are points, without torsional friction
+@option normal_force? number|number[] [N, > 0] = 5  at which soft contacts are rated, or a list of one per contact
+@like patch:ellipse  modulus
 @return grasp
+@effect reads
 > clench.grasp(hand, flask):is_force_closure()  --> true
 > clench.grasp(flask, hand)  --> error: expected the hand first, then the object)"},
 };
@@ -386,8 +392,12 @@ value up to 0.02 rad or 1 mm beyond a limit is set to the limit, with a warning 
 the hand's order, with a warning if Isaac Sim numbers them differently, unless `dof_order` gives the order: "hand"; "isaac", which is breadth first; or a list of names. If an arm carries the hand, the arm moves with everything that it carries, to the first posture that `ik` finds from its present one. Nothing else moves, and collisions are not checked: see `world:collides`.
 A warning names a hand with other shapes or joints, or an object with another surface, than those of the measured grasp; masses, materials, limits and motors may differ.
 @param world? world  default: its own
-@param options? {hand?: robot, object?: body, dof_order?: string|string[]}
+@param options? table  the hand and the object, if not those of the grasp's names
+@option hand? robot  in that world
+@option object? body  in that world
+@option dof_order? string|string[]  names of DOFs that the grasp does not name: a list, "isaac" (breadth first) or "hand"
 @return grasp
+@effect edits
 > #grasp:apply(world, {hand = hand, object = flask}).contacts == #grasp.contacts  --> true
 > hand:open()
 > again = grasp:apply()
@@ -396,15 +406,21 @@ A warning names a hand with other shapes or joints, or an object with another su
     {"dofs_for", guarded<grasp_dofs_for>, R"(
 Values of all DOFs of a hand as `apply` would set them, and of its pregrasp, if it has one.
 @param hand robot  hand whose DOFs are wanted
-@param options? {dof_order?: string|string[]}  as `apply` takes it
+@param options? table  the order of its DOFs
+@like grasp:apply  dof_order
 @return number[] dofs, number[]? pregrasp  [rad or m]
+@effect reads
 > #grasp:dofs_for(hand) == #hand.dofs  --> true)"},
     {"save", guarded<save_grasp>, R"(
 Writes the grasp in its world as a scene of MuJoCo, as world:save does. The base of the hand is on slides, named carriage_x, carriage_y
 and carriage_z, along the axes of the world. The keyframes "pregrasp", "grasp" and "lift" contain postures and motor controls: in "grasp" and
 "lift" the motors press towards the targets of `squeeze`, or, without it or with `force`, with contact forces in equilibrium; between "grasp" and "lift" the hand rises.
 @param path string  .xml or .mjcf
-@param options? {force?: number, height?: number, confine?: string}  force: sum of the normal forces, 10 times the object's weight by default, less where the motors cannot [N]; height: of the lift, 0.1 [m]
+@param options? table  the keys of the scene
+@option force? number [N, > 0]  sum of the normal forces, 10 times the object's weight by default, less if the motors cannot exert that
+@option height? number [m, > 0] = 0.1  height of the lift
+@option confine? string  folder outside of which no file is read or written, by default that of --confine
+@effect files
 > path = os.tmpname()
 > grasp:save(path .. ".xml")
 > clench.load(path .. ".xml", {keyframe = "lift"}).keyframes[2]  --> grasp
@@ -415,12 +431,16 @@ and carriage_z, along the axes of the world. The keyframes "pregrasp", "grasp" a
      method<[](const GraspHandle& x) { return space_of(x.grasp)->is_force_closure(); }>, R"(
 Can the grasp resist every wrench?
 @return boolean
+@effect reads
 > grasp:is_force_closure()  --> true)"},
     {"wrench_space", guarded<grasp_space>, R"(
 Its wrench space about the object's center of mass: in the norm "L1" or "Linf"; with edges and rho of the grasp, or others;
 in some of the coordinates "fx" to "tz". All contacts together have at most 100,000 edges; more is an error of the kind "limit". The same options give the same space, which caches its results.
-@param options? {norm?: string, edges?: integer|string, rho?: number|string, coordinates?: string[]}
+@param options? table  how its contacts are combined
+@like clench.wrench_space  norm, edges, coordinates
+@option rho? number|"gyration" [m, > 0]  torque length, by default that of the grasp; gyration: the object's radius of gyration
 @return wrench_space
+@effect reads
 > grasp:wrench_space().rank  --> 6
 > grasp:wrench_space{norm = "Linf"}:epsilon() >= grasp:wrench_space():epsilon()  --> true
 > grasp:wrench_space{edges = "exact"}:epsilon() >= grasp:wrench_space():epsilon()  --> true

@@ -107,8 +107,13 @@ A list of grasps: empty, or read from a file in any format that `save` writes; t
 for `.json` and `.txt` files the contents do. Its grasps belong to no world: they have the file's contacts, posture
 and measures, and `apply` puts them into a world.
 @param path? string  file of grasps to read; without it the list is empty
-@param options? {root?: string, confine?: string, format?: string, dof_order?: string|string[], hand?: robot, strict?: boolean}  format: "jsonl", "csv", "npz", "isaac_grasp", "graspgen", "multigripper" or "graspit" (results of its planner); dof_order: names of DOFs that the file does not name, as a list, or as "isaac", breadth first, or "hand", in the order of the DOFs of `hand`
+@param options? table  how the file is read
+@like clench.load  root, confine, strict, unit, mesh_scale
+@option format? "jsonl"|"csv"|"npz"|"isaac_grasp"|"graspgen"|"multigripper"|"graspit"  instead of that of the file name; graspit: results of its planner
+@option dof_order? string|string[]  names of DOFs that the file does not name: a list, "isaac" (breadth first) or "hand" (in the order of the DOFs of `hand`)
+@option hand? robot  hand to which dof_order refers
 @return grasps list, string? format  of the file
+@effect files
 > list = clench.grasps()
 > list:add(grasp)
 > path = os.tmpname()
@@ -126,13 +131,18 @@ static const Entry grasps_methods[] = {
 Appends a copy of a grasp, including its measures.
 @param grasp grasp  grasp to append
 @return integer count
+@effect edits
 > clench.grasps():add(grasp)  --> 1)"},
     {"save", guarded<grasps_save>, R"(
 Writes the list. JSON lines (`.jsonl`, or no ending) store everything: a head with the version, then a grasp on each line, with bit-exact numbers.
 `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are selected by their endings, too, `.json` of GraspGen and MultiGripperGrasp by
 `format`; a warning names everything that a format cannot represent. The same list gives the same bytes.
 @param path string  file to write; its ending selects the format
-@param options? {format?: string, notes?: table, compress?: boolean}  format: as clench.grasps takes it; compress: the arrays of an .npz; notes: plain data about the list as such, for the head of JSON lines
+@param options? table  how it is written
+@option format? string  as clench.grasps takes it
+@option notes? table  plain data about the list as such, for the head of JSON lines
+@option compress? boolean = false  true: compressed arrays in an .npz
+@effect files
 > list = clench.grasps()
 > list:save("grasps.json")  --> error: .json may be several formats
 > list:save("grasps.csv", {compress = true})  --> error: only .npz is compressed, got csv
@@ -144,8 +154,10 @@ Writes the list. JSON lines (`.jsonl`, or no ending) store everything: a head wi
 Checks that `save` can write there, for instance before a long search: the format is known, the folder exists, and file and
 folder are writable. Changes no file.
 @param path string  file that is to be written; its ending selects the format
-@param options? {format?: string}  as of `save`
+@param options? table  how it would be written
+@option format? string  as clench.grasps takes it
 @return string format
+@effect files
 > clench.grasps():check_save "build/grasps.csv"  --> csv
 > clench.grasps():check_save "grasps.json"  --> error: .json may be several formats
 > clench.grasps():check_save "no_such_folder/grasps.jsonl"  --> error: no such folder)"},

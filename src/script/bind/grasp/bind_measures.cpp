@@ -97,6 +97,7 @@ static const Entry measures_functions[] = {
     {"measures", guarded<list_measures>, R"(
 The measures that grasp:quality knows, in the order of the guide.
 @return {name: string, what: string, range: string, unit: string, higher_is_better: boolean, source: string}[]
+@effect reads
 > clench.measures()[1].name, clench.measures()[1].source  --> epsilon, Ferrari and Canny (1992))"},
 };
 
@@ -107,6 +108,7 @@ source. Infinite if there is nothing to measure, such as the clearance of a hand
 the grasp was measured.
 @param measure string  name of a quality measure, from clench.measures
 @return number
+@effect reads
 > grasp:quality "epsilon" > 0  --> true
 > grasp:quality "epsilon_linf" >= grasp:quality "epsilon"  --> true
 > grasp:quality "epsilom"  --> error: did you mean 'epsilon'?)"},
@@ -114,14 +116,20 @@ the grasp was measured.
 All measures at once, by name, without those that are infinite and those that are not available, such as the volume of
 too many contacts with too many edges.
 @return table<string, number>
+@effect reads
 > q = grasp:quality_all()
 > q.epsilon == grasp:quality "epsilon", q.isotropy > 0  --> true, true)"},
     {"resistance", guarded<resist>, R"(
 The largest multiple of a wrench on the object that contact forces in round cones balance, with normal forces that sum to
 at most one newton (norm "L1") or are each at most one newton ("Linf"); for several wrenches the smallest such multiple; for an ellipsoid the
 largest multiple that is resisted completely, with the friction cones of the grasp. World axes, torques about the center of mass.
-@param options {wrench?: number[], wrenches?: number[][], ellipsoid?: number[], norm?: string}  one of the first three; {fx, fy, fz, tx, ty, tz} [N, N m]; ellipsoid: its half axes
+@param options table  one of wrench, wrenches and ellipsoid
+@option wrench? number[] [N and N m]  {fx, fy, fz, tx, ty, tz}
+@option wrenches? number[][] [N and N m]  the least over all
+@option ellipsoid? number[] [N and N m]  half axes of an ellipsoid of wrenches
+@option norm? "L1"|"Linf" = "L1"  as of wrench spaces
 @return number
+@effect reads
 > weight = {0, 0, -9.81 * flask.mass, 0, 0, 0}
 > grasp:resistance{wrench = weight} > 0  --> true
 > grasp:resistance{wrenches = {weight, {1, 0, 0, 0, 0, 0}}} <= grasp:resistance{wrench = weight}  --> true

@@ -129,8 +129,12 @@ static const Entry projection_methods[] = {
     {"render", guarded<draw_projection>, R"(
 Draws it transparently, with its axes and their numbers [N], the part of the ball of epsilon that lies in it, and the
 weakest direction; size, samples and camera as in clench.render.
-@param options? {ball?: boolean, weakest?: boolean, size?: integer[], samples?: integer, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number}
+@param options? table  what is shown, and the picture
+@option ball? boolean = true  true: the largest ball in the space
+@option weakest? boolean = true  true: the weakest wrench
+@like clench.render  size, quality, background, outline, letters, samples, eye, target, up, field_of_view, orthographic, camera
 @return picture
+@effect long
 > forces = grasp:wrench_space():project{fixed = {tx = 0, ty = 0, tz = 0}}
 > forces:render{size = {64, 48}}  --> picture of 64 x 48 pixels)"},
 };

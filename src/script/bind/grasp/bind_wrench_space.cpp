@@ -25,10 +25,7 @@ std::optional<int> read_edges(Table& options) {
       fail("{}: edges must be 3 to {} or 'exact', got '{}'", options.subject(), max_edges, word);
     return round_edges;
   }
-  const int edges = options.integer("edges");
-  if (edges < 3 || edges > max_edges)
-    fail("{}: edges must be 3 to {} or 'exact', got {}", options.subject(), max_edges, edges);
-  return edges;
+  return options.integer("edges");
 }
 
 bool is_gyration(Table& options) {
@@ -95,7 +92,7 @@ static int new_wrench_space(lua_State* L) {
   Table options(L, 1);
   ConeOptions cone;
   cone.edges = read_edges(options).value_or(cone.edges);
-  cone.rho = options.positive("rho", cone.rho);
+  cone.rho = options.number("rho", cone.rho);
   cone.p_OM = options.vec3("com", Eigen::Vector3d::Zero());
   const WrenchSpaceOptions space_options = read_space_options(options);
   std::vector<UnitWrenches> contacts;
@@ -189,14 +186,25 @@ All wrenches that contacts resist when their normal forces sum to one (norm "L1"
 A contact is a list of unit wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu, torsion_radius} in
 the object frame; torsion_radius [m] is that of the torsional friction of a soft finger, 0 for a hard one. Nothing
 is calculated before it is requested.
-@param options {contacts: table[], norm?: string, edges?: integer|string, rho?: number, com?: vec3, coordinates?: string[]}  edges: of the friction pyramids, 8, or "exact" for round cones; rho: length that torques are divided by, 1 m unless given; com: the point of torques, the frame's origin unless given [m]; coordinates: those that count, of "fx" to "tz"
+@param options table  the contacts, and how they are combined
+@option contacts table[]  points with their cones, or lists of wrenches {fx, fy, fz, tx, ty, tz}
+@option contacts.point? vec3 [m]  contact point
+@option contacts.normal? vec3  unit normal, into the object
+@option contacts.mu? number [0 to 1e6]  coefficient of friction
+@option contacts.torsion_radius? number [m, >= 0] = 0  of a soft contact
+@option norm? "L1"|"Linf" = "L1"  L1: the normal forces sum to 1; Linf: each is at most 1
+@option edges? integer|"exact" [3 to 1000] = 8  of the friction pyramids; exact: round cones
+@option rho? number [m, > 0] = 1  length by which torques are divided
+@option com? vec3 [m] = {0, 0, 0}  point about which torques are computed
+@option coordinates? string[]  those that count, of "fx" to "tz"; all by default
 @return wrench_space
+@effect reads
 > cross = {}
 > for i = 1, 6 do for s = -1, 1, 2 do w = {0, 0, 0, 0, 0, 0} w[i] = s cross[#cross + 1] = w end end
 > math.abs(clench.wrench_space{contacts = {cross}}:epsilon() - 1 / math.sqrt(6)) < 1e-12  --> true
 > clench.wrench_space{contacts = {cross}, coordinates = {"fx", "fy", "fz"}}.rank  --> 3
 > clench.wrench_space{contacts = {{{1, 0, 0, 0, 0}}}}  --> error: 6
-> clench.wrench_space{contacts = {}, edges = 2}  --> error: edges must be 3 to 1000 or 'exact', got 2)"},
+> clench.wrench_space{contacts = {}, edges = 2}  --> error: edges must be 3 to 1000, got 2)"},
 };
 
 static const Entry space_fields[] = {
@@ -221,12 +229,16 @@ Radius of the largest ball of resisted wrenches; 0 without force closure. Accura
 or, if that takes too many facets (rings of equal contacts, large friction), a certified lower bound: epsilon_bounds
 returns both bounds.
 @return number
+@effect reads
 > grasp:wrench_space():epsilon() == grasp:quality "epsilon"  --> true)"},
     {"epsilon_bounds", guarded<epsilon_bounds>, R"(
 Certified bounds of epsilon, no tighter than necessary: refinement ends when upper - lower is within the tolerance (1e-6),
 or as soon as epsilon is known to reach or miss at_least.
-@param options? {tolerance?: number, at_least?: number}
+@param options? table  when it ends
+@option tolerance? number [>= 0] = 1e-6  sufficient difference of the bounds
+@option at_least? number  end as soon as it is known whether epsilon is that large
 @return {lower: number, upper: number, converged: boolean, reached?: boolean}  converged: within the tolerance; reached: lower >= at_least
+@effect long
 > bounds = grasp:wrench_space{edges = "exact"}:epsilon_bounds{tolerance = 1e-3}
 > bounds.lower <= bounds.upper and bounds.upper <= bounds.lower + 1e-3  --> true
 > grasp:wrench_space():epsilon_bounds{at_least = 1}.reached  --> false)"},
@@ -235,12 +247,15 @@ Volume in the coordinates of the space; 0 if the space is flat. With round cones
 about five hard contacts of eight edges or three soft ones are the maximum: more than 60,000 cells are an error that states
 so.
 @return number
+@effect reads
 > grasp:wrench_space():volume() == grasp:quality "volume"  --> true)"},
     {"volume_bounds", guarded<volume_bounds>, R"(
 Certified bounds of the volume: with round cones, the volume for pyramids inside the cones and that for the same pyramids enlarged until they
 enclose the cones. Without round cones both are the volume.
-@param options? {edges?: integer}  of the pyramids, 4 to 1000 (32)
+@param options? table  how exact they are
+@option edges? integer [4 to 1000] = 32  of the pyramids
 @return {lower: number, upper: number}
+@effect long
 > exact = grasp:wrench_space{edges = "exact"}
 > bounds = exact:volume_bounds()
 > bounds.lower < exact:volume() and exact:volume() < bounds.upper and bounds.upper < 1.05 * bounds.lower  --> true
@@ -249,22 +264,35 @@ enclose the cones. Without round cones both are the volume.
     {"is_force_closure", guarded<closes_force>, R"(
 Is every wrench resisted?
 @return boolean
+@effect reads
 > grasp:wrench_space():is_force_closure()  --> true)"},
     {"weakest", guarded<weakest>, R"(
 The wrench on the object that is resisted least, and the contacts that yield first as it grows.
-@return {direction: number[], resistance: number, contacts: integer[]}  unit wrench, torque over rho; its largest multiple resisted, below 0 when all contacts push along it; numbers of the contacts that push against it at their limit
+@return {direction: number[], resistance: number, contacts: index[]}  unit wrench, torque over rho; its largest multiple resisted, below 0 when all contacts push along it; numbers of the contacts that push against it at their limit
+@effect reads
 > w = grasp:wrench_space():weakest()
 > math.abs(w.resistance - grasp:quality "epsilon") < 1e-12 and #w.contacts >= 1  --> true)"},
     {"wrenches", guarded<wrenches>, R"(
 The unit wrenches, contact by contact.
 @return number[][][]
+@effect reads
 > #grasp:wrench_space():wrenches() == #grasp.contacts  --> true
 > grasp:wrench_space{edges = "exact"}:wrenches()  --> error: round cones)"},
     {"project", guarded<project_space>, R"(
 The space in three coordinates. Of the others, `fixed` ones have a value, which gives a section, and `projected` ones may have
 any value, which gives a projection.
-@param options? {fixed?: table<string, number>, projected?: string[], tolerance?: number}  tolerance: of round cones, as a part of the space's size, 1e-3
+@param options? table  the three coordinates that remain
+@option fixed? table  values of coordinates, {tx = 0, ty = 0, tz = 0}
+@option fixed.fx? number  value of this coordinate
+@option fixed.fy? number  value of this coordinate
+@option fixed.fz? number  value of this coordinate
+@option fixed.tx? number  value of this coordinate
+@option fixed.ty? number  value of this coordinate
+@option fixed.tz? number  value of this coordinate
+@option projected? string[]  coordinates that are projected out
+@option tolerance? number [> 0] = 1e-3  of round cones, relative to the size of the space
 @return projection
+@effect long
 > section = grasp:wrench_space():project{fixed = {tx = 0, ty = 0, tz = 0}}
 > projection = grasp:wrench_space():project{projected = {"tx", "ty", "tz"}}
 > section.volume > 0 and section.volume <= projection.volume  --> true

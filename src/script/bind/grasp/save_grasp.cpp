@@ -139,8 +139,8 @@ GraspSceneOptions read_grasp_scene(Table& options, const World& world, Id<Body> 
   GraspSceneOptions out;
   out.is_force_given = options.has("force");
   out.force =
-      out.is_force_given ? options.positive("force", 1) : 10 * gravity * world.body(object).mass;
-  if (options.has("height")) out.height = options.positive("height", 1);
+      out.is_force_given ? options.number("force") : 10 * gravity * world.body(object).mass;
+  out.height = options.number("height", out.height);
   return out;
 }
 

@@ -68,8 +68,17 @@ Draws numbers as columns: one panel per series, each with its own scale, all ove
 it fits. The best column of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a missing
 value, and marked. Texts are UTF-8; characters that the font lacks are drawn as boxes, and a warning names them. Texts
 that are too long are shortened in the middle. No graphics hardware is needed.
-@param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer}  labels: one per item, their numbers by default; size in pixels: 960 wide, and as high as the panels need
+@param options table  the series and their labels
+@option series table[]  one table of these fields each
+@option series.name string  of the panel
+@option series.values (number|false)[]  one per item; false: none
+@option series.higher_is_better? boolean = true  false: the lowest value is the best
+@option labels? string[]  one per item, their numbers by default
+@option title? string  above the chart
+@option width? integer [pixels, 64 to 8192] = 960  width
+@option height? integer [pixels]  64 to 8192, by default as high as the panels need
 @return plot  to be saved as PNG or SVG
+@effect reads
 > clench.chart{series = {{name = "epsilon", values = {0.1, 0.3, 0.2}}}, height = 200}  --> plot of 960 x 200 pixels
 > clench.chart{series = {}}  --> error: expected at least one series)"},
 };

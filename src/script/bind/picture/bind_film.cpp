@@ -27,7 +27,7 @@ static int save_gif(lua_State* L) {
   Table options(L, 3);
   std::vector<int> delays(frames.size(), 10);
   if (options.has("rate")) {
-    const double rate = options.positive("rate", 10);
+    const double rate = options.number("rate");
     // the rounding error of a delay is carried over to the next one
     int shown = 0;
     for (size_t i = 0; i < delays.size(); ++i) {
@@ -56,7 +56,10 @@ static const Entry film_functions[] = {
 Writes pictures of one size as an animated GIF of up to 256 colors, which repeats forever.
 @param path string  file to write
 @param pictures picture[]  frames in order, all of one size
-@param options? {rate?: number, delays?: number[]}  rate: pictures a second, 10 by default [Hz]; delays: of each picture [0.01 s]
+@param options? table  how long each picture is shown
+@option rate? number [Hz, > 0] = 10  pictures per second
+@option delays? number[] [0.01 s]  of each picture, 0 to 65535
+@effect files
 > small = clench.render(world, {size = {64, 48}, quality = "draft"})
 > clench.files.save_gif("build/small.gif", {small, small}, {rate = 25})
 > clench.files.save_gif("build/small.gif", {})  --> error: expected at least one picture, got none)"},

@@ -129,11 +129,7 @@ static int make_sheet(lua_State* L) {
   });
   arranging.captions = read_texts(L, options, "captions");
   arranging.notes = read_texts(L, options, "notes");
-  if (options.has("columns")) {
-    arranging.columns = options.integer("columns");
-    if (arranging.columns < 1)
-      fail("{}: columns: expected at least 1, got {}", options.subject(), arranging.columns);
-  }
+  arranging.columns = options.integer("columns", arranging.columns);
   arranging.gap = options.integer("gap", arranging.gap);
   options.done();
   if (!arranging.captions.empty() || !arranging.notes.empty()) warn_without_letters(L, font);
@@ -145,8 +141,28 @@ static const Entry plot_functions[] = {
 Plots numbers over numbers: lines, points, and bars between edges, such as those of clench.stats.histogram; with `categories`, numbers
 over names, as bars next to each other. `false` and values that are not finite are left out, and leave a gap in a line. Color-blind people can distinguish the colors. No
 graphics hardware is needed.
-@param options {series: {name?: string, kind?: string, x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[]}[], categories?: string[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: string, y_scale?: string, width?: integer, height?: integer}  kind: "line", "points" or "bars", by default a line, of categories bars; categories: of each, every series has one y and no x; x: 1, 2, 3 ... by default, of bars their edges, one more than y; edges and counts: bars; names stand in a legend; labels with their units; ranges: {low, high}, what lies outside is cut off; scales: "linear" (default) or "log", which leaves out what is not > 0; 720 x 480 pixels by default
+@param options table  the series and the axes
+@option series table[]  one table of these fields each
+@option series.name? string  shown in a legend
+@option series.kind? "line"|"points"|"bars"  by default a line, of categories bars
+@option series.x? (number|false)[]  1, 2, 3 ... by default; of bars their edges, one more than y
+@option series.y? (number|false)[]  values; false: none
+@option series.edges? number[]  edges of bars, as of clench.stats.histogram
+@option series.counts? number[]  heights of bars, as of clench.stats.histogram
+@option series.below? number  of clench.stats.histogram, not drawn
+@option series.above? number  of clench.stats.histogram, not drawn
+@option categories? string[]  names along x: every series has one y for each, and no x
+@option title? string  above the plot
+@option x_label? string  with its unit
+@option y_label? string  with its unit
+@option x_range? number[]  {low, high}; what lies outside is cut off
+@option y_range? number[]  {low, high}; what lies outside is cut off
+@option x_scale? "linear"|"log" = "linear"  log leaves out what is not > 0
+@option y_scale? "linear"|"log" = "linear"  log leaves out what is not > 0
+@option width? integer [pixels, 64 to 8192] = 720  width
+@option height? integer [pixels, 64 to 8192] = 480  height
 @return plot
+@effect reads
 > p = clench.plot{series = {{name = "epsilon", x = {0, 1, 2}, y = {0.1, 0.3, 0.2}}}, x_label = "angle [rad]"}
 > p  --> plot of 720 x 480 pixels
 > clench.plot{series = {clench.stats.histogram{1, 2, 2, 3}}}.picture  --> picture of 720 x 480 pixels
@@ -156,8 +172,14 @@ graphics hardware is needed.
 > clench.plot{series = {{x = {1, 2}, y = {1}}}}  --> error: series 1: expected 1 values of x, as there are of y, got 2)"},
     {"sheet", guarded<make_sheet>, R"(
 Several pictures in one, in rows, each with its caption below it, and notes at the bottom.
-@param options {pictures: (picture|plot)[], captions?: string[], notes?: string[], columns?: integer, gap?: integer}  captions: of one or more lines; notes: lines of text, broken where they are too wide; columns: so many that the sheet is about square, by default; gap between pictures: 12 by default [pixels]
+@param options table  the pictures and their texts
+@option pictures (picture|plot)[]  from left to right, and down
+@option captions? string[]  one per picture, of one or more lines
+@option notes? string[]  lines of text below, broken where they are too wide
+@option columns? integer [1 to 16384]  so many that the sheet is about square, by default
+@option gap? integer [pixels, 0 to 1000] = 12  between pictures
 @return picture
+@effect reads
 > small = clench.render(world, {size = {64, 48}})
 > clench.sheet{pictures = {small, small, small}, captions = {"a", "b", "c"}, columns = 3, gap = 4}  --> picture of 208 x 78 pixels
 > clench.sheet{pictures = {}}  --> error: expected at least one picture, got none)"},
@@ -182,6 +204,7 @@ static const Entry plot_methods[] = {
     {"save", guarded<plot_save>, R"(
 Writes a file: .svg, whose lines and letters drawing programs can edit, or .png.
 @param path string  file to write, .svg or .png
+@effect files
 > clench.plot{series = {{y = {1, 2}}}}:save "build/line.svg"
 > clench.plot{series = {{y = {1, 2}}}}:save "line.pdf"  --> error: expected a name that ends in .svg or .png, got 'line.pdf')"},
 };

@@ -27,7 +27,7 @@ static Eye read_eye(Table& options, const Eye& from) {
   eye.eye = options.vec3("eye", from.eye);
   eye.target = options.vec3("target", from.target);
   eye.up = options.vec3("up", from.up);
-  eye.field_of_view = options.positive("field_of_view", from.field_of_view);
+  eye.field_of_view = options.number("field_of_view", from.field_of_view);
   const Eigen::Vector3d back = eye.eye - eye.target;
   // a default up vector along the view is replaced
   if (options.has("up") && !(eye.up.cross(back).norm() > 1e-9 * back.norm() * eye.up.norm()))
@@ -71,14 +71,8 @@ static RenderOptions read_rendering(Table& options) {
                                        {"white", Backdrop::white},
                                        {"transparent", Backdrop::transparent}},
                                       Backdrop::studio);
-  const auto pixels = [&](const char* key, double most) {
-    const double n = options.number(key, 0);
-    if (!(n >= 0 && n <= most))
-      fail("{}: {}: expected 0 to {} pixels, got {}", options.subject(), key, most, n);
-    return n;
-  };
-  rendering.outline = pixels("outline", 32);
-  rendering.letters = pixels("letters", 200);
+  rendering.outline = options.number("outline", rendering.outline);
+  rendering.letters = options.number("letters", rendering.letters);
   return rendering;
 }
 
@@ -300,8 +294,40 @@ all soft contacts instead of the cones, which would cover them. The camera looks
 links of those robots, or at everything, unless it is given completely or in part. The same world gives the same bytes.
 It needs EGL and OpenGL, but no display. Data of a picture are cached for the next one, which is drawn faster.
 @param world world  world to draw
-@param options? {size?: integer[], quality?: string, background?: string, outline?: number, letters?: number, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, camera?: table, frame?: string, contacts?: boolean, cones?: string, cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean, transparent_objects?: boolean, file_colors?: boolean, samples?: integer, forces?: table[], force_scale?: number, arrows?: boolean}  size: width and height in pixels; quality: "paper", or "draft", a fraction of the time; background: "studio", "white" or "transparent", both with the shadow on the floor; outline: width of lines around bodies [pixels]; letters: height of capital letters [pixels]; field_of_view: vertical [rad]; orthographic: true, or the height that is shown [m]; camera: these five in a table, such as the camera of a picture; frame: what a camera that is not given looks at, "contacts" or "all"; cones: their sizes, "apart" (lowered where they are close together), "equal", or in proportion to "friction" or to the normal "force"; cone_height: of the highest cone [m]; approach: an arrow from the approach point of each robot that closes, along its direction; forces: those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; its caption tells the largest; force_scale: their length, by default so that the longest has 0.6 of the object's largest radius [m/N]; arrows: false leaves the arrows out, so that forces only size the cones
+@param options? table  the picture, the camera, and what is shown
+@option size? integer[] [pixels] = {1280, 960}  width and height, 16 to 8192
+@option quality? "paper"|"draft" = "paper"  draft: a fraction of the time
+@option background? "studio"|"white"|"transparent" = "studio"  white and transparent have the shadow on the floor
+@option outline? number [pixels, 0 to 32] = 0  width of lines around bodies
+@option letters? number [pixels, 0 to 200] = 0  height of capital letters; 0: a fraction of the height of the picture
+@option samples? integer [1 to 256]  per pixel, 8 by default; of a draft 1 (default), 4, 9 or 16
+@option eye? vec3 [m]  position of the camera; the parts of the camera that are not given are chosen
+@option target? vec3 [m]  point at which it looks
+@option up? vec3  direction that is up in the picture
+@option field_of_view? number [rad, > 0]  vertical
+@option orthographic? boolean|number [m, > 0] = false  true, or the height that is shown
+@option camera? table  these five in a table, such as the camera of a picture
+@option camera.eye? vec3 [m]  position of the camera
+@option camera.target? vec3 [m]  point at which it looks
+@option camera.up? vec3  direction that is up in the picture
+@option camera.field_of_view? number [rad, > 0]  vertical
+@option camera.orthographic? boolean|number [m, > 0] = false  true, or the height that is shown
+@option frame? "contacts"|"all" = "contacts"  what a camera that is not given looks at
+@option contacts? boolean  true: friction cones; by default true without patches
+@option cones? "apart"|"equal"|"friction"|"force" = "apart"  their sizes: apart: lowered where they are close together; friction, force: in proportion to friction or normal force
+@option cone_height? number [m, > 0]  of the highest cone
+@option patches? boolean = false  true: patches of soft contacts
+@option approach? boolean = false  true: an arrow from the approach point of each robot that closes, along its direction
+@option ground? boolean|number [m] = true  the floor; or its height
+@option transparent_objects? boolean = true  true: objects are transparent
+@option file_colors? boolean = true  false: colors by the kind of body
+@option forces? table[]  those of grasp:contact_forces, as arrows with their tips at the contacts, labelled in newtons, through transparent links; the caption states the largest
+@option forces.contact contact  where it acts
+@option forces.force vec3 [N]  on the object, in the world
+@option force_scale? number [m/N, > 0]  length of the arrows, by default so that the longest has 0.6 of the object's largest radius
+@option arrows? boolean = true  false: forces only size the cones
 @return picture
+@effect long
 > clench.render(world, {size = {64, 48}})  --> picture of 64 x 48 pixels
 > plain = clench.render(world, {size = {64, 48}, quality = "draft"})
 > held = grasp:contact_forces{load = {0, 0, -3, 0, 0, 0}}
@@ -319,7 +345,9 @@ The camera that clench.render chooses with the same options; for several states 
 shows the objects that robots touch in some state, and those robots from the palm outward; if nothing is touched, everything.
 @param worlds world|world[]  a list: states of one world, such as clones of it
 @param options? table  those of clench.render
+@like clench.render
 @return table camera  {eye: vec3, target: vec3, up: vec3, field_of_view: number, orthographic?: number}, options of clench.render
+@effect reads
 > c = clench.camera(world, {size = {64, 48}})
 > c.eye == clench.render(world, {size = {64, 48}, quality = "draft"}).camera.eye  --> true
 > clench.camera({world, world:clone()}, {size = {64, 48}}).eye == c.eye  --> true
@@ -350,29 +378,33 @@ static const Entry render_methods[] = {
     {"save", guarded<render_save>, R"(
 Writes a PNG file, with alpha if the background is transparent.
 @param path string  file to write, .png
+@effect files
 > clench.render(world, {size = {64, 48}, quality = "draft"}):save("no/such/folder/a.png")  --> error: no/such/folder/a.png
 > clench.render(world, {size = {64, 48}, quality = "draft"}):save("a.jpg")  --> error: .png)"},
     {"pixel", guarded<pixel>, R"(
 Red, green and blue of a pixel, 0 to 255; (1, 1) is the upper left.
-@param x integer  column, from the left
-@param y integer  row, from the top
+@param x index  column, from the left
+@param y index  row, from the top
 @return integer red
 @return integer green
 @return integer blue
+@effect reads
 > select("#", clench.render(world, {size = {64, 48}, quality = "draft"}):pixel(1, 1))  --> 3)"},
     {"alpha", guarded<alpha>, R"(
 Opacity of a pixel, 0 to 255: less than 255 where a transparent background shows through; (1, 1) is the upper left.
-@param x integer  column, from the left
-@param y integer  row, from the top
+@param x index  column, from the left
+@param y index  row, from the top
 @return integer alpha
+@effect reads
 > clench.render(world, {size = {64, 48}, quality = "draft"}):alpha(1, 1)  --> 255
 > clench.render(world, {size = {64, 48}, quality = "draft", background = "transparent"}):alpha(1, 1)  --> 0)"},
     {"pick", guarded<pick_pixel>, R"(
 The nearest surface under a pixel of a picture of a world, in the state in which it was drawn; transparent bodies count. nil if
 there is none. `body` and `other` are nil if they have been removed since.
-@param x integer  column, from the left
-@param y integer  row, from the top
+@param x index  column, from the left
+@param y index  row, from the top
 @return table? picked  {kind: string, body?: body, other?: body, point: vec3, normal: vec3, distance: number}  kind: "body"; "contact" (a cone) or "patch", where body is touched by other; "approach", where body is the base of the robot; "force"; "floor"; or "other"; point: [m]; normal: unit, to the side of the camera; distance: from the camera [m]
+@effect reads
 > place = world.objects[1].pose.position
 > p = clench.render(world, {size = {64, 48}, quality = "draft", camera = {eye = place + clench.vec3(0, 0, 1), target = place, up = {1, 0, 0}}})
 > p:pick(32, 24).body.name == world.objects[1].name  --> true

@@ -47,7 +47,7 @@ static GivenForces read_forces(lua_State* L, Table& options) {
 static void add_forces(Table& options, const GivenForces& given, Scene& scene) {
   const double longest = given.longest > 0 ? given.longest : 1;
   const std::vector<PlacedForce> forces = patch_forces(given.contacts, given.forces);
-  const double scale = options.positive("force_scale", force_scale(forces, longest));
+  const double scale = options.number("force_scale", force_scale(forces, longest));
   for (DrawArrow& arrow : force_arrows(forces, scale)) {
     arrow.shown.kind = Shown::Kind::force;
     scene.arrows.push_back(arrow);
@@ -74,8 +74,7 @@ static void read_cones(Table& options, const GivenForces& given, SceneOptions& s
                                       ConeSizes::apart);
   if (showing.cone_sizes == ConeSizes::force && given.forces.empty())
     fail("{}: cones: 'force' needs the option forces", options.subject());
-  showing.cone_height = options.positive("cone_height", 1);
-  if (!options.has("cone_height")) showing.cone_height = 0;
+  showing.cone_height = options.number("cone_height", 0);
   showing.loads = read_loads(given);
   showing.framing = options.choice(
       "frame", {{"contacts", Framing::contacts}, {"all", Framing::all}}, Framing::contacts);

@@ -106,15 +106,19 @@ static const Entry arrays_functions[] = {
 Writes lists of numbers, or of rows of numbers, as NumPy arrays, which `numpy.load` returns by their names.
 @param path string  .npz
 @param arrays table<string, number[]|number[][]>  arrays by name, of one or two dimensions
-@param options? {compress?: boolean}  compress: as numpy.savez_compressed; false
+@param options? table  how it is written
+@option compress? boolean = false  true: as numpy.savez_compressed
+@effect files
 > clench.files.save_arrays("build/arrays.npz", {time = {0, 0.5}, place = {{1, 2, 3}, {4, 5, 6}}})
 > clench.files.save_arrays("build/arrays.npz", {time = {0, 0.5}}, {compress = true})
 > clench.files.save_arrays("build/arrays.npz", {time = {0, "x"}})  --> error: time[2]: expected a number, got 'x')"},
     {"arrays", guarded<arrays>, R"(
 The arrays of such a file: lists of numbers or texts, or lists of rows. All indices but the first are combined into one.
 @param path string  .npz
-@param options? {root?: string, confine?: string, strict?: boolean}
+@param options? table  how the file is read
+@like clench.load  root, confine, strict, unit, mesh_scale
 @return table<string, number[]|number[][]|string[]>
+@effect files
 > clench.files.save_arrays("build/arrays.npz", {time = {0, 0.5}, place = {{1, 2, 3}, {4, 5, 6}}})
 > clench.files.arrays "build/arrays.npz".place[2][3]  --> 6.0
 > clench.files.arrays "no.npz"  --> error: no such file: no.npz)"},

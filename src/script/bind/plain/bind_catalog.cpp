@@ -111,14 +111,17 @@ static const Entry catalog_functions[] = {
 Kind of a file's contents, by its ending, or in XML by its root element; if the ending leaves it open, by the layout of its
 numbers.
 @param path string  file to inspect
-@param options? {confine?: string}
+@param options? table  how the file is read
+@like clench.load  confine
 @return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"object contacts"|"pre-grasps"|"planned grasps"|"glove calibration"|"glove poses"
+@effect files
 > clench.file_kind "models/objects/flask.iv"  --> body
 > clench.file_kind "worlds/dlr_flask.wld"  --> world
 > clench.file_kind "README.md"  --> error: expected a model, a world, or a file that goes with one, got '.md')"},
     {"catalog", guarded<catalog>, R"(
 Paths of the models and worlds that come with Clench, sorted.
 @return {hands: string[], arms: string[], objects: string[], obstacles: string[], worlds: string[]}
+@effect files
 > type(clench.catalog().hands)  --> table)"},
 };
 

@@ -69,8 +69,12 @@ Converts a file to another format, by the ending of `to`: bodies as .xml .iv .ob
 lists of grasps as .jsonl .csv .npz .yaml, or in the given `format`. Warnings name everything that the format cannot represent.
 @param from string  file to read
 @param to string  file to write; its ending selects the format
-@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number}  of reading; of robots those of add_robot, too; of worlds `format`, as world:save takes it; of grasps `format`, as list:save takes it, and `dof_order`, names of DOFs that the file does not name
+@param options? table  how the file is read and written
+@like clench.load  root, confine, strict, unit, mesh_scale, folder, body, package, eigengrasps, virtual_contacts, close, approach
+@option format? string  of worlds as world:save takes it; of grasps that of the file to read, as clench.grasps takes it
+@option dof_order? string[]  of grasps: names of DOFs that the file does not name
 @return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"grasps"|"planned grasps" # what was read
+@effect files
 > path = os.tmpname()
 > clench.convert("models/objects/flask.iv", path .. ".ply")  --> body
 > world:add_object(path .. ".ply").mesh:is_watertight()  --> true

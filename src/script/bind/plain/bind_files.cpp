@@ -224,15 +224,19 @@ static const Entry files_functions[] = {
     {"eigengrasps", guarded<eigengrasps>, R"(
 Eigengrasps from .egr or .xml. Give them to a hand: hand.eigengrasps = set.
 @param path string  file to read
-@param options? {root?: string, confine?: string, strict?: boolean}
+@param options? table  how the file is read
+@like clench.load  root, confine, strict, unit, mesh_scale
 @return eigengrasps
+@effect files
 > clench.files.eigengrasps "no.egr"  --> error: no such file: no.egr)"},
     {"virtual_contacts", guarded<virtual_contacts>, R"(
 Virtual contacts from .vgr or .xml. Give them to a hand: hand.virtual_contacts = list. `chain` and `link` count from 1;
 chain 0 is the base. `frame` is in the link frame, +z out of the link; `robot` of the list is the hand for which they were made.
 @param path string  file to read
-@param options? {root?: string, confine?: string, strict?: boolean}
-@return {chain: integer, link: integer, frame: pose, mu: number, edges: number[][]}[]
+@param options? table  how the file is read
+@like clench.load  root, confine, strict, unit, mesh_scale
+@return {chain: integer, link: index, frame: pose, mu: number, edges: number[][]}[]
+@effect files
 > path = os.tmpname() .. ".vgr"
 > hand:save_virtual_contacts(path)
 > list = clench.files.virtual_contacts(path)
@@ -242,13 +246,21 @@ chain 0 is the base. `frame` is in the link frame, +z out of the link; `robot` o
 Contacts on an object, as GraspIt! stores them. `placed` is false, and the frame at the origin, if the file omits
 the points.
 @param path string  file to read
-@param options? {root?: string, confine?: string, strict?: boolean}
+@param options? table  how the file is read
+@like clench.load  root, confine, strict, unit, mesh_scale
 @return {frame: pose, placed: boolean, normal: vec3, mu: number, edges: number[][]}[]
+@effect files
 > clench.files.object_contacts "no.txt"  --> error: no such file)"},
     {"save_object_contacts", guarded<save_object_contacts>, R"(
 Writes contacts on an object; without `edges`, those of a point contact.
 @param path string  file to write
-@param list {frame: pose, normal: vec3, mu?: number, edges?: number[][]}[]  in the object's frame
+@param list table[]  contacts in the object's frame
+@option frame pose  z along the normal
+@option placed? boolean = true  false: the frame is unknown
+@option normal vec3  into the object
+@option mu? number [0 to 1e6] = 1  coefficient of friction
+@option edges? number[][]  friction edges, by default those of a point
+@effect files
 > path = os.tmpname()
 > clench.files.save_object_contacts(path, {{frame = {xyz = {0, 0, 0.1}}, normal = {0, 0, -1}, mu = 0.5}})
 > list = clench.files.object_contacts(path)
@@ -258,8 +270,10 @@ Writes contacts on an object; without `edges`, those of a point contact.
 Boxes, spheres, cylinders and cones of an Inventor or VRML file, in its frame. For an object's file, those of
 primitives/<its name>.iv next to it are read instead, if that file exists. y is the axis of cylinder and cone.
 @param path string  file to read
-@param options? {root?: string, confine?: string, strict?: boolean}
+@param options? table  how the file is read
+@like clench.load  root, confine, strict, unit, mesh_scale
 @return {kind: "box"|"sphere"|"cylinder"|"cone", pose: pose, size?: vec3, radius?: number, height?: number}[]  [m]
+@effect files
 > path = os.tmpname() .. ".iv"
 > file = io.open(path, "w")
 > file:write "#Inventor V2.1 ascii\nCube { width 20 height 30 depth 40 }"
@@ -270,8 +284,10 @@ primitives/<its name>.iv next to it are read instead, if that file exists. y is 
     {"pregrasps", guarded<pregrasps>, R"(
 Pre-grasps of a planner's list, in the object's frame.
 @param path string  file to read
-@param options? {root?: string, confine?: string, strict?: boolean}
+@param options? table  how the file is read
+@like clench.load  root, confine, strict, unit, mesh_scale
 @return {point: vec3, direction: vec3, thumb: vec3, spread: number}[]  [m, rad]
+@effect files
 > path = os.tmpname()
 > clench.files.save_pregrasps(path, {{point = {0, 0, 0.1}, direction = {0, 0, -1}, thumb = {1, 0, 0}, spread = 1}})
 > list = clench.files.pregrasps(path)
@@ -281,6 +297,7 @@ Pre-grasps of a planner's list, in the object's frame.
 Writes a text to a file, completely or not at all: on failure an existing file is unchanged.
 @param path string  file to write
 @param text string  contents of the file
+@effect files
 > clench.files.save_text("build/note.txt", "held")
 > clench.files.save_text("no/such/folder/a.txt", "")  --> error: no such folder: no/such/folder)"},
     {"append_text", guarded<append_text>, R"(
@@ -288,6 +305,7 @@ Appends a text as a separate line, and the end of that line, in one system call:
 or nothing, and a full disk leaves no part of it. Creates the file if necessary.
 @param path string  file to append to
 @param text string  text to append
+@effect files
 > path = os.tmpname()
 > clench.files.append_text(path, "one")
 > clench.files.append_text(path, "two")
@@ -299,14 +317,17 @@ or nothing, and a full disk leaves no part of it. Creates the file if necessary.
 Checks that a file can be written there, for instance before long work: its folder exists, both are writable, and it is no
 folder, pipe or device. Changes no file.
 @param path string  file that is to be written
+@effect files
 > clench.files.check_writable "build/note.txt"
 > clench.files.check_writable "build"  --> error: build: expected a file to write, got a folder
 > clench.files.check_writable "/dev/null"  --> error: /dev/null: expected a file to write, got a special file)"},
     {"read_text", guarded<read_whole>, R"(
 The bytes of a file, of at most 1 GB. Folders, pipes, devices and sockets are rejected.
 @param path string  file to read
-@param options? {root?: string, confine?: string, strict?: boolean}
+@param options? table  how the file is read
+@like clench.load  root, confine, strict, unit, mesh_scale
 @return string
+@effect files
 > clench.files.save_text("build/note.txt", "held")
 > clench.files.read_text "build/note.txt"  --> held
 > clench.files.read_text "/dev/zero"  --> error: expected a file, got a special file: /dev/zero)"},
@@ -316,6 +337,7 @@ Cells of a text of comma-separated values, line by line, as texts; clench.csv re
 @param text string  contents of a CSV file
 @param separator? string  "," by default, ";" or a tab
 @return table[] records  lists of cells, each with its `line`, and `quoted`: of which cells stood in quotes
+@effect reads
 > records = clench.files.csv_records("a.csv", 'a,"7"\n1,2')
 > #records, records[1][2], records[1].quoted[2], records[2].line  --> 2, 7, true, 2
 > clench.files.csv_records("a.csv", '"a')  --> error: a.csv:1: a quote that is not closed)"},
@@ -324,24 +346,34 @@ A text as a cell of comma-separated values: quoted if it would otherwise be read
 @param text string  text of the cell
 @param separator? string  "," by default, ";" or a tab
 @return string
+@effect reads
 > clench.files.csv_text "mug", clench.files.csv_text "7", clench.files.csv_text "a,b"  --> mug, "7", "a,b")"},
     {"save_pregrasps", guarded<save_pregrasps>, R"(
 Writes pre-grasps as a planner's list.
 @param path string  file to write
-@param list {point: vec3, direction: vec3, thumb: vec3, spread?: number}[]  pregrasps in the frame of the object
+@param list table[]  pregrasps in the frame of the object
+@option point vec3 [m]  approach point
+@option direction vec3  approach direction
+@option thumb vec3  direction of the thumb
+@option spread? number [rad] = 0  spread of the fingers
+@effect files
 > clench.files.save_pregrasps("x.txt", {{point = {0, 0, 0}}})  --> error: list[1]: direction)"},
     {"glove_calibration", guarded<glove_calibration>, R"(
 Calibration of a data glove, from raw numbers to DOF values: DOF = intercept + slopes * raw.
 @param path string  file to read
-@param options? {root?: string, confine?: string, strict?: boolean}
+@param options? table  how the file is read
+@like clench.load  root, confine, strict, unit, mesh_scale
 @return {slopes: number[][], intercepts: number[]}  [rad per count, rad]
+@effect files
 > clench.files.glove_calibration "no.txt"  --> error: no such file)"},
     {"glove_poses", guarded<glove_poses>, R"(
 Postures from which a glove was calibrated: raw `sensors`, the `dof_of_sensor` (0: not used), `joints` [rad], the
 `distance` of fingertips that were meant to touch [m], and the hand's `pose`.
 @param path string  file to read
-@param options? {root?: string, confine?: string, strict?: boolean}
+@param options? table  how the file is read
+@like clench.load  root, confine, strict, unit, mesh_scale
 @return {distance?: number, sensors?: integer[], dof_of_sensor?: integer[], joints?: number[], pose: pose}[]
+@effect files
 > clench.files.glove_poses "no.txt"  --> error: no such file)"},
 };
 

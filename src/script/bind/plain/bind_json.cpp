@@ -12,7 +12,6 @@ namespace clench {
 static int encode(lua_State* L) {
   Table t(L, 2);
   const int indent = t.integer("indent", 0);
-  if (indent < 0 || indent > 16) fail("{}: indent: expected 0 to 16, got {}", subject(L), indent);
   t.done();
   if (lua_isnone(L, 1)) fail_expected({L, {}, "value"}, "a value", 1);
   return push(L, write_json(L, 1, indent));
@@ -34,8 +33,10 @@ static const Entry json_functions[] = {
 A value as JSON. Keys are sorted and numbers are preserved bit-exactly, so equal values give equal text; integers stay
 integers. Poses and vectors are written too; functions, NaN and tables that contain themselves are rejected.
 @param value any  plain data: nil, booleans, numbers, strings, lists and tables with names as keys
-@param options? {indent?: integer}  spaces per level; default: all on one line
+@param options? table  look
+@option indent? integer [0 to 16] = 0  spaces per level; 0: all on one line
 @return string
+@effect reads
 > clench.json.encode{name = "flask", mass = 0.3, size = {1, 2.0}}  --> {"mass":0.3,"name":"flask","size":[1,2.0]}
 > clench.json.encode{at = clench.vec3(0, 0.5, 1)}  --> {"at":[0.0,0.5,1.0]}
 > clench.json.encode{0 / 0}  --> error: value[1]: expected a finite number)"},
@@ -43,6 +44,7 @@ integers. Poses and vectors are written too; functions, NaN and tables that cont
 The value of a JSON text. A null in a list is `clench.json.null`; in an object it is absent.
 @param text string  JSON text
 @return any
+@effect reads
 > clench.json.decode '{"links": [1, 2.5, null]}'.links  --> {1, 2.5, null}
 > clench.json.decode '{"a": 1,}'  --> error: line 1, column 9: expected a name in double quotes, got '}')"},
 };

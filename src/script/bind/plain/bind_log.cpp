@@ -233,6 +233,7 @@ Calls a function, and returns the messages logged during the call as values. Not
 @param ... any  its arguments
 @return {severity: "note"|"warning"|"error", text: string, file?: string, line?: integer, subject?: string, about?: string, count: integer}[] diagnostics  file and line: the place in a file that is read or written; subject: the part of it that is concerned, "joint 2"; about: "inferred", "ignored", "repaired" or "suspicious"; equal problems of one file are one, the first, with their count
 @return any ...  what the function returns
+@effect edits
 > list, body = clench.log.collect(function() return world:add_object(flask.source, {name = "again"}) end)
 > body.name, #list  --> again, 0
 > list = clench.log.collect(clench.log.warning, "too thin")
@@ -241,11 +242,13 @@ Calls a function, and returns the messages logged during the call as values. Not
     {"debug", guarded<log_at<LogLevel::debug>>, R"(
 Logs a message for developers.
 @param ... any  values of the message, as print takes them
+@effect reads
 > clench.log.debug "not shown by default"
 > clench.log.level()  --> info)"},
     {"info", guarded<log_at<LogLevel::info>>, R"(
 Logs a message of possible interest to users.
 @param ... any  values of the message, as print takes them
+@effect reads
 > clench.log.sink(function(level, text) said = level .. ": " .. text end)
 > clench.log.info("three", 3)
 > clench.log.sink()
@@ -253,6 +256,7 @@ Logs a message of possible interest to users.
     {"warning", guarded<log_at<LogLevel::warning>>, R"(
 Logs a warning, such as contents of a file that the engine does not use.
 @param ... any  values of the message, as print takes them
+@effect reads
 > clench.log.sink(function(level, text) said = level .. ": " .. text end)
 > clench.log.warning "no mass given"
 > clench.log.sink()
@@ -260,6 +264,7 @@ Logs a warning, such as contents of a file that the engine does not use.
     {"error", guarded<log_at<LogLevel::error>>, R"(
 Logs an error, and continues.
 @param ... any  values of the message, as print takes them
+@effect reads
 > clench.log.sink(function(level, text) said = level .. ": " .. text end)
 > clench.log.error "the glove does not answer"
 > clench.log.sink()
@@ -268,6 +273,7 @@ Logs an error, and continues.
 Sets the level from which on messages are shown, if one is given; returns the previous one.
 @param name? "debug"|"info"|"warning"|"error"|"quiet"  least severe level that is printed; without it the level stays
 @return string before
+@effect edits
 > clench.log.level "quiet"  --> info
 > clench.log.level "info"  --> quiet
 > clench.log.level "loud"  --> error: expected one of debug, info, warning, error, quiet)"},
@@ -276,6 +282,7 @@ Sends messages to a function(level, text, about, diagnostic) instead of stderr; 
 of message of a file reader: "inferred", "ignored", "repaired" or "suspicious"; nil otherwise. `diagnostic` contains a message of
 a reader or writer as values, like `clench.log.collect`; nil for messages of scripts.
 @param fn? fun(level: string, text: string, about: string?, diagnostic: table?)  called with each message in place of printing it; without it messages are printed again
+@effect edits
 > clench.log.sink(function(level, text) said = text end)
 > clench.log.info "hello"
 > clench.log.sink()

@@ -221,8 +221,18 @@ static int pose_as_json(lua_State* L) {
 static const Entry pose_functions[] = {
     {"pose", guarded<make_pose>, R"(
 A rigid transform: the pose of one frame in another, within 1e9 m of it. The rotation is given in at most one form.
-@param options? {xyz?: vec3, rpy?: number[], quat?: number[], matrix?: number[][], axis?: vec3, angle?: number, x_axis?: vec3, y_axis?: vec3, z_axis?: vec3}  xyz [m]; rpy: turns about the fixed x, y, z axes, in this order [rad]; quat: unit, w x y z; matrix: 3 rows of 3 or 4, or 4 rows of 4; axis, angle: a turn about an axis of any length [rad]; x_axis, y_axis, z_axis: where one or two of the frame's axes point; of two, z_axis, else x_axis, exactly, the other as nearly as a right angle allows; one: by the smallest rotation (by half a turn about the next axis if it points backward)
+@param options? table  position and orientation
+@option xyz? vec3 [m]  position
+@option rpy? number[] [rad]  rotations about the fixed x, y and z axes, in this order
+@option quat? number[]  unit quaternion, w x y z
+@option matrix? number[][]  3 rows of 3 or 4, or 4 rows of 4
+@option axis? vec3  of a rotation by `angle`, of any length
+@option angle? number [rad]  about `axis`
+@option x_axis? vec3  direction of this axis of the frame
+@option y_axis? vec3  direction of this axis of the frame
+@option z_axis? vec3  direction of this axis of the frame. Of two axes, z_axis, else x_axis, is matched exactly, the other as nearly as a right angle allows; one axis: by the smallest rotation (by half a turn about the next axis if it points backward)
 @return pose
+@effect reads
 > clench.deg(clench.pose{axis = {0, 0, 2}, angle = clench.rad(90)}:angle())  --> 90.0
 > clench.pose{z_axis = {1, 0, 0}}:rotate{0, 1, 0}  --> (0, 1, 0)
 > clench.pose{z_axis = {0, 0, -1}, x_axis = {1, 0, 0.5}}:rotate{0, 1, 0}  --> (0, -1, 0)
@@ -236,6 +246,7 @@ The pose of a camera at `eye` that sees `target`: it looks along its -z, with y 
 @param target vec3 [m]  point that it looks at
 @param up? vec3  {0, 0, 1} by default
 @return pose
+@effect reads
 > clench.look_at({1, 0, 0}, {0, 0, 0}):rotate{0, 0, -1}  --> (-1, 0, 0)
 > clench.look_at({0, 0, 1}, {0, 0, 0})  --> error: expected different eye and target, and up in another direction than the view)"},
 };
@@ -259,25 +270,30 @@ static const Entry pose_methods[] = {
     {"inverse", method<[](const Pose& x) { return x.inverse(); }>, R"(
 The inverse: `p:inverse() * p` is the identity.
 @return pose
+@effect reads
 > clench.pose{xyz = {1, 2, 3}}:inverse().position  --> (-1, -2, -3))"},
     {"angle", method<[](const Pose& x) { return x.angle(); }>, R"(
 Angle of the rotation, from 0 to pi.
 @return number  [rad]
+@effect reads
 > clench.deg(clench.pose{quat = {0, 1, 0, 0}}:angle())  --> 180.0)"},
     {"matrix", method<homogeneous>, R"(
 The homogeneous matrix.
 @return number[][]  4 rows of 4
+@effect reads
 > clench.pose{xyz = {1, 2, 3}}:matrix()[1]  --> {1.0, 0.0, 0.0, 1.0})"},
     {"rotate", guarded<rotate>, R"(
 A direction transformed by the rotation only.
 @param direction vec3  direction in the frame of the pose
 @return vec3
+@effect reads
 > clench.pose{xyz = {1, 2, 3}, quat = {0, 0, 0, 1}}:rotate{1, 0, 0}  --> (-1, 0, 0))"},
     {"interpolate", guarded<interpolate_to>, R"(
 The pose between this one (t = 0) and another (t = 1): straight line, shortest turn.
 @param other pose  pose at t = 1
 @param t number  part of the path from this pose to the other
 @return pose
+@effect reads
 > clench.pose{}:interpolate(clench.pose{xyz = {4, 0, 0}}, 0.25).position  --> (1, 0, 0))"},
 };
 

@@ -91,6 +91,7 @@ or by `close`.
 @param total? integer|any[]  how many steps, or what to go through; without, only the text is shown
 @param text? string  what is in progress, shown before the bar
 @return progress
+@effect reads
 > sum = 0
 > for i, word in clench.progress({"a", "bb"}, "counting") do sum = sum + i * #word end
 > for i in clench.progress(3) do sum = sum + i end
@@ -103,12 +104,14 @@ static const Entry progress_methods[] = {
 Counts the given number of steps as done.
 @param count? number  default 1
 @param text? string  shown beside the bar from now on
+@effect edits
 > p = clench.progress(10, "closing")
 > p:step(4, "opening")
 > p:close()
 > p.done, p.total  --> 4.0, 10.0)"},
     {"close", method<[](ProgressHandle& x) { x.close(); }>, R"(
 Removes the bar; a variable declared <close> does so automatically.
+@effect edits
 > p = clench.progress(10)
 > p:close()
 > p  --> progress: 0 of 10)"},

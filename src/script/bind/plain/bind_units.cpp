@@ -32,26 +32,31 @@ static const Entry units_functions[] = {
 The type of a value: that of Lua, or the name of its class.
 @param value any  any value
 @return string
+@effect reads
 > clench.type(hand), clench.type(clench.vec3(1, 2, 3)), clench.type {}  --> robot, vec3, table)"},
     {"rad", guarded<rad>, R"(
 Degrees to radians.
 @param degrees number [degrees]  angle
 @return number  [rad]
+@effect reads
 > clench.rad(180) == math.pi  --> true
 > clench.rad "90"  --> error: clench.rad: degrees: expected a number, got '90')"},
     {"deg", guarded<deg>, R"(
 Radians to degrees.
 @param radians number [rad]  angle
 @return number  [deg]
+@effect reads
 > clench.deg(math.pi)  --> 180.0)"},
     {"mm", guarded<mm>, R"(
 Millimeters to meters.
 @param millimeters number [mm]  length
 @return number  [m]
+@effect reads
 > clench.mm(25)  --> 0.025)"},
     {"clock", guarded<clock_now>, R"(
 Seconds of a monotonic clock with an arbitrary origin, to measure durations.
 @return number  [s]
+@effect reads
 > before = clench.clock()
 > clench.clock() >= before  --> true)"},
 };

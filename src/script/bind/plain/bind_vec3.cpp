@@ -78,6 +78,7 @@ A vector of three finite numbers, from a list or one by one. Wherever a vec3 is 
 @param y? number  second component, when they are given one by one
 @param z? number  third component
 @return vec3
+@effect reads
 > clench.vec3(1, 2, 3)  --> (1, 2, 3)
 > clench.vec3{1, 2, 3} * 2 - {1, 1, 1}  --> (1, 3, 5)
 > clench.vec3{1, 2}  --> error: expected 3 numbers, got 2
@@ -105,19 +106,23 @@ static const Entry vec3_methods[] = {
 Scalar product.
 @param other vec3  other factor
 @return number
+@effect reads
 > clench.vec3(1, 2, 3):dot{1, 1, 1}  --> 6.0)"},
     {"cross", guarded<cross>, R"(
 Vector product.
 @param other vec3  other factor
 @return vec3
+@effect reads
 > clench.vec3(1, 0, 0):cross{0, 1, 0}  --> (0, 0, 1))"},
     {"norm", method<[](const Vector3d& x) { return x.stableNorm(); }>, R"(
 Length.
 @return number
+@effect reads
 > clench.vec3(3, 4, 0):norm()  --> 5.0)"},
     {"unit", guarded<unit>, R"(
 The same direction, length 1.
 @return vec3
+@effect reads
 > clench.vec3(0, 0, 2):unit()  --> (0, 0, 1)
 > clench.vec3(0, 0, 0):unit()  --> error: length 0)"},
 };

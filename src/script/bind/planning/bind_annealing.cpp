@@ -231,6 +231,7 @@ A chain of simulated annealing, run step by step: the search used by `clench.pla
 @option max_tries? integer [>= 1] = 11  tries to find a legal neighbor
 @option best? table  {size = 20, distance = 0.2, posture = true, max_energy =}
 @return annealing
+@effect reads
 > search = clench.annealing {hand = hand, object = flask, energy = clench.energy.contact {hand = hand, object = flask}, seed = 1}
 > search:run(100), search.counts.steps  --> 100, 100
 > search.best[1].energy <= search.first_energy  --> true
@@ -242,6 +243,7 @@ Runs several chains at once, each in a separate world; their results do not depe
 @param steps integer[]  one per chain
 @param threads? integer  1 by default
 @return integer[] taken  fewer than asked where no legal neighbor was found
+@effect long
 > energy = clench.energy.contact {hand = hand, object = flask}
 > a = clench.annealing {world = world:clone(), hand = hand, object = flask, energy = energy, seed = 1}
 > b = clench.annealing {world = world:clone(), hand = hand, object = flask, energy = energy, seed = 1}
@@ -290,28 +292,39 @@ static const Entry annealing_methods[] = {
 Takes steps, each to a legal neighbor that is accepted or not.
 @param steps integer [>= 0]  steps to take at most
 @return integer taken  fewer where 10,000 tries in a row found no legal neighbor
+@effect long
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
 > search:run(3)  --> 3
 > search:run(-1)  --> error: steps must be >= 0, got -1)"},
     {"avoid", guarded<avoid>, R"(
 Avoids a state from now on: states similar to it are illegal.
-@param state {pose: pose, dofs: number[]}  as `best` lists them
+@param state table  as `best` lists them; other fields of such an item are ignored
+@option pose pose  of the hand, in the object
+@option dofs number[] [rad or m]  of the hand
+@option energy? number  ignored
+@option step? integer  ignored
+@option values? table  ignored
+@effect edits
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
 > search:avoid(search.best[1])
 > search:run(5), search.counts.avoided > 0  --> 5, true)"},
     {"go_to", guarded<go_to>, R"(
 Sets a state, or the nearest one that its variables can represent.
-@param state {pose: pose, dofs: number[]}
+@param state table  as `best` lists them; other fields of such an item are ignored
+@like search:avoid
 @return table values
+@effect edits
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
 > search:go_to {pose = flask.pose:inverse() * hand.pose, dofs = hand.dofs}.alpha >= 0  --> true)"},
     {"reset", method<[](const AnnealingHandle& x) { x.search->reset_schedule(); }>, R"(
 Restarts the schedule of temperatures.
+@effect edits
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
 > search:reset()
 > search.energy  --> 2.0)"},
     {"clear", method<[](const AnnealingHandle& x) { x.search->best().clear(); }>, R"(
 Clears the list of the best states; avoided states remain avoided.
+@effect edits
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
 > search:clear()
 > #search.best  --> 0)"},

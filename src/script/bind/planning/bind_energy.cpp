@@ -65,7 +65,7 @@ ContactEnergy::Options read_contact_options(Table& options) {
 
 PotentialQuality::Options read_potential_options(Table& options, SiteKind contacts) {
   PotentialQuality::Options out{.contacts = contacts};
-  out.reach = options.positive("reach", out.reach);
+  out.reach = options.number("reach", out.reach);
   out.min_count = options.integer("min_count", out.min_count);
   out.torques = options.boolean("torques", out.torques);
   return out;
@@ -136,7 +136,7 @@ int guided_autograsp_quality(lua_State* L) {
   GuidedClosingEnergy::Options reading{.contacts = read_contacts(options)};
   reading.facing = read_facing(options, Facing::away);
   reading.volume_weight = options.number("volume_weight", reading.volume_weight);
-  reading.near = options.positive("near", reading.near);
+  reading.near = options.number("near", reading.near);
   reading.min_contacts = options.integer("min_contacts", reading.min_contacts);
   options.done();
   return push_energy(L, world, std::make_unique<GuidedClosingEnergy>(*world, who, reading));
@@ -146,7 +146,7 @@ int compliant(lua_State* L) {
   Table options(L, 1);
   const auto [world, who] = read_subject(options);
   CompliantEnergy::Options reading;
-  reading.approach = options.positive("approach", reading.approach);
+  reading.approach = options.number("approach", reading.approach);
   reading.min_epsilon = options.number("min_epsilon", reading.min_epsilon);
   options.done();
   return push_energy(L, world, std::make_unique<CompliantEnergy>(who, reading));
@@ -286,6 +286,7 @@ normal_weight (1 - cosine of the angle). Does not close the hand: the fastest en
 @option normal_weight? number [mm, >= 0] = 50  weight of the angle
 @option facing? "nearest"|"surface"|"away" = "nearest"  what the normal is compared with: the direction to the nearest point, the surface there, or the direction away from it
 @return energy
+@effect reads
 > e = clench.energy.contact {hand = hand, object = flask}
 > e() > 0  --> true
 > e2 = e + 0.5 * clench.energy.penetration {hand = hand}
@@ -303,6 +304,7 @@ Grasp quality of the virtual contacts as if they touched, with larger weights fo
 @option min_count? integer [>= 1] = 3  smallest number of contacts that are near
 @option torques? boolean = false  true: of wrenches, not of forces
 @return energy
+@effect reads
 > clench.energy.potential_quality {hand = hand, object = flask}() <= 1  --> true)"},
     {"guided_potential_quality", guarded<guided_potential_quality>, R"(
 potential_quality if that is at most 0, otherwise contact, which guides the search there.
@@ -316,6 +318,7 @@ potential_quality if that is at most 0, otherwise contact, which guides the sear
 @option min_count? integer [>= 1] = 3  smallest number of contacts that are near
 @option torques? boolean = false  true: of wrenches, not of forces
 @return energy
+@effect reads
 > clench.energy.guided_potential_quality {hand = hand, object = flask}() < 1000  --> true)"},
     {"autograsp_quality", guarded<autograsp_quality>, R"(
 Closes the hand, and opens it again: minus (volume_weight * volume + epsilon_weight * epsilon) of the grasp; with
@@ -327,8 +330,9 @@ Closes the hand, and opens it again: minus (volume_weight * volume + epsilon_wei
 @option epsilon_weight? number [>= 0] = 100  weight of epsilon
 @option tasks? number[][] [N and N m]  wrenches {fx, fy, fz, tx, ty, tz} along the axes of the object, about its center of mass
 @option task_weight? number [>= 0]  weight of the tasks, 1 by default
-@option edges? integer|string  of the friction pyramids, as of clench.grasp
+@option edges? integer|"exact" [3 to 1000] = 8  of the friction pyramids; exact: round cones
 @return energy
+@effect reads
 > e = clench.energy.autograsp_quality {hand = hand, object = flask, volume_weight = 0, epsilon_weight = 1}
 > math.abs(e() + grasp:quality "epsilon") < 1e-6  --> true)"},
     {"guided_autograsp_quality", guarded<guided_autograsp_quality>, R"(
@@ -344,6 +348,7 @@ correct one.
 @option near? number [m, > 0] = 0.02  such contacts are near
 @option min_contacts? integer = 4  smallest number of contacts of a closed grasp that counts
 @return energy
+@effect reads
 > clench.energy.guided_autograsp_quality {hand = hand, object = flask}() < 1000  --> true)"},
     {"strict_autograsp", guarded<strict_autograsp>, R"(
 autograsp_quality after an approach of 30 mm that ends at the first contact; if the base then touches nothing, the hand stays
@@ -355,8 +360,9 @@ at its start. 1e8 if the grasp has no quality.
 @option epsilon_weight? number [>= 0] = 100  weight of epsilon
 @option tasks? number[][] [N and N m]  wrenches {fx, fy, fz, tx, ty, tz} along the axes of the object, about its center of mass
 @option task_weight? number [>= 0]  weight of the tasks, 1 by default
-@option edges? integer|string  of the friction pyramids, as of clench.grasp
+@option edges? integer|"exact" [3 to 1000] = 8  of the friction pyramids; exact: round cones
 @return energy
+@effect reads
 > clench.energy.strict_autograsp {hand = hand, object = flask}() < 0  --> true)"},
     {"compliant", guarded<compliant>, R"(
 For hands with springs: approaches until the first touch along the approach direction, closes, and computes the balance of
@@ -368,6 +374,7 @@ min_epsilon.
 @option approach? number [m, > 0] = 0.2  longest travel to the first touch
 @option min_epsilon? number = 0.05  smallest epsilon
 @return energy
+@effect reads
 > clench.energy.compliant {hand = hand, object = flask}() <= 1  --> true)"},
     {"dynamic", guarded<dynamic>, R"(
 Result of shaking the closed hand in simulation: minus the sum over six directions of the fraction of the time that the object was held
@@ -379,6 +386,7 @@ one thread, and takes some tenths of a second if the hand holds something.
 @option shake? table  options of study.shake; 0.5 s along each direction, 0.3 s of grip and of rest by default
 @option contacts? "preset"|"live" = "preset"  contacts of `contact`, which leads there
 @return energy
+@effect reads
 > e = clench.energy.dynamic {hand = hand, object = flask, shake = {seconds = 0.1}}
 > e(), e.any_thread  --> -6.0, false
 > clench.energy.dynamic {hand = hand, object = flask, shake = {secs = 1}}()  --> error: unknown key 'secs')"},
@@ -389,6 +397,7 @@ Angle by which the hand's approach direction deviates from an axis, beyond a lim
 @option axis vec3  axis of the cone, in the world
 @option angle? number [rad] = 0  half of the angle of the cone
 @return energy
+@effect reads
 > d = hand.approach.direction
 > clench.energy.approach_cone {hand = hand, axis = d}() < 1e-9  --> true
 > clench.energy.approach_cone {hand = hand, axis = -d, angle = 1}() - (math.pi - 1) < 1e-9  --> true)"},
@@ -400,22 +409,34 @@ Penetration depth of the hand's bounding boxes in a forbidden box [mm].
 @option high vec3 [m]  highest corner
 @option pose? pose  of the box, that of the world by default
 @return energy
+@effect reads
 > clench.energy.keep_out {hand = hand, low = {9, 9, 9}, high = {10, 10, 10}}()  --> 0.0)"},
     {"clearance", guarded<clearance>, R"(
 Shortfall of the hand's distance to everything but its object and itself, below a limit [mm].
-@param options {hand: robot, object: body, distance: number}  [m]
+@param options table  the hand, the object and the distance
+@option hand robot  hand that keeps the distance
+@option object body  object that is grasped
+@option distance number [m, >= 0]  smallest distance
 @return energy
+@effect reads
 > clench.energy.clearance {hand = hand, object = flask, distance = 0.01}()  --> 0.0)"},
     {"reach", guarded<reach>, R"(
 Distance of the hand's approach point from a point, beyond a radius [mm].
-@param options {hand: robot, point: vec3, radius: number}  [m]
+@param options table  the hand and the ball
+@option hand robot  hand that stays within reach
+@option point vec3 [m]  center of the ball, in the world
+@option radius number [m, >= 0]  radius of the ball
 @return energy
+@effect reads
 > clench.energy.reach {hand = hand, point = hand.approach.point, radius = 0.1}()  --> 0.0)"},
     {"penetration", guarded<penetration>, R"(
 Penetration depth of the hand in colliding bodies, measured at points on its bodies, summed over the pairs of bodies [mm]; 0 only if
 nothing collides. If no point lies inside, the depth given by `world:penetration` is used. A search with this term and `collisions = false` may cross states that collide.
-@param options {hand: robot, points?: integer}  points: on each body, 64
+@param options table  the hand and the points
+@option hand robot  hand that may collide
+@option points? integer [1 to 10000] = 64  number of points on each body
 @return energy
+@effect reads
 > clench.energy.penetration {hand = hand}()  --> 0.0)"},
 };
 
@@ -433,6 +454,7 @@ The same term, clamped to at least `low` and at most `high`; nil: no such bound.
 @param low? number  lower bound
 @param high? number  upper bound
 @return energy
+@effect reads
 > clench.energy.contact {hand = hand, object = flask}:within(nil, 1)() <= 1  --> true)"},
 };
 

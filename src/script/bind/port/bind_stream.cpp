@@ -14,15 +14,18 @@
 #include <utility>
 
 #include "clench/base/file.h"
+#include "clench/io/text/confine.h"
 #include "clench/port/pty.h"
 #include "clench/port/serial.h"
 #include "clench/port/socket.h"
 #include "clench/port/stream.h"
+#include "clench/script/bind/output.h"
 #include "clench/script/bind/port/natives.h"
 #include "clench/script/lua/check.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
+#include "clench/script/lua/setting.h"
 #include "clench/script/lua/table.h"
 
 namespace clench {
@@ -154,10 +157,21 @@ const Class acceptor_class{
 template <>
 inline constexpr const Class* script_class<AcceptorPtr> = &acceptor_class;
 
+// The path of a device or socket. It may be anywhere, but must not leave the confined folder through
+// a link inside it.
+static std::string check_endpoint(lua_State* L, const std::string& path) {
+  const std::string confine = get_setting(L, Setting::confine);
+  if (leads_out(path, confine))
+    fail(ErrorKind::file,
+         "{}: a link leads out of {}, to which reading is confined; nothing is opened", path,
+         confine);
+  return path;
+}
+
 // open_serial(options)
 int open_serial_stream(lua_State* L) {
   Table t(L, 1, "clench.port.serial");
-  SerialOptions options{.path = t.string("path")};
+  SerialOptions options{.path = check_endpoint(L, t.string("path"))};
   options.baud = t.integer("baud", options.baud);
   options.data_bits = t.integer("data_bits", options.data_bits);
   options.stop_bits = t.integer("stop_bits", options.stop_bits);
@@ -201,7 +215,7 @@ int open_stdio_stream(lua_State* L) {
 // connect(address, port), connect(path): a stream that can be written once it is connected
 int begin_stream(lua_State* L) {
   const std::string host = check_string(L, 1, "host");
-  if (!given(L, 2)) return push_stream(L, begin_connect_unix(host));
+  if (!given(L, 2)) return push_stream(L, begin_connect_unix(check_endpoint(L, host)));
   return push_stream(L, begin_connect({host}, check_int(L, 2, "port")));
 }
 
@@ -210,7 +224,7 @@ int open_acceptor(lua_State* L) {
   const std::string host = check_string(L, 1, "host");
   return push_object(
       L, std::make_shared<Acceptor>(given(L, 2) ? Acceptor::tcp({host}, check_int(L, 2, "port"))
-                                                : Acceptor::unix_socket(host)));
+                                                : Acceptor::unix_socket(check_endpoint(L, host))));
 }
 
 // resolve(host, numeric): a list of numeric addresses
@@ -222,7 +236,7 @@ int resolve_host(lua_State* L) {
 
 // save_secret(path, text): writes a file that only its owner may read
 int save_secret(lua_State* L) {
-  const std::string path = check_string(L, 1, "path");
+  const std::string path = check_output(L, 1, "path");
   constexpr unsigned only_owner = 0600;
   Draft draft(path, string_at(L, 2), only_owner);
   draft.move_to(path);

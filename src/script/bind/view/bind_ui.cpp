@@ -25,7 +25,7 @@ int make_ui(lua_State* L) {
   if (options.has("size")) size = options.numbers("size", 2);
   GuiStyle style;
   style.dark = options.boolean("dark", false);
-  style.scale = options.positive("scale", 1);
+  style.scale = options.number("scale", 1);
   const bool window = options.boolean("window", false);
   const std::string title = options.string("title", "Clench");
   options.done();
@@ -63,8 +63,8 @@ int ui_show(lua_State* L) {
     eye.eye = options.vec3("eye");
     eye.target = options.vec3("target");
     eye.up = options.vec3("up", eye.up);
-    eye.field_of_view = options.positive("field_of_view", eye.field_of_view);
-    eye.ortho_height = options.has("orthographic") ? options.positive("orthographic", 1) : 0;
+    eye.field_of_view = options.number("field_of_view", eye.field_of_view);
+    eye.ortho_height = options.number("orthographic", 0);
   }
   Scene scene = read_scene(L, options, {&world, 1});
   options.done();
@@ -102,11 +102,6 @@ int ui_input(lua_State* L) {
   options.done();
   gui.add(std::move(event));
   return 0;
-}
-
-int push_rect(lua_State* L, const GuiRect& rect) {
-  return push_record(
-      L, {{"x", rect.x}, {"y", rect.y}, {"width", rect.width}, {"height", rect.height}});
 }
 
 int get_items(lua_State* L) {
@@ -161,8 +156,8 @@ int ui_set_style(lua_State* L) {
   Table options(L, 2);
   GuiStyle style = gui.style();
   style.dark = options.boolean("dark", style.dark);
-  style.scale = options.positive("scale", style.scale);
-  style.font_size = options.positive("font_size", style.font_size);
+  style.scale = options.number("scale", style.scale);
+  style.font_size = options.number("font_size", style.font_size);
   options.done();
   gui.set_style(style);
   return 0;
@@ -206,8 +201,14 @@ int ui_text_of(lua_State* L) {
 static const Entry ui_functions[] = {
     {"ui", guarded<make_ui>, R"(
 Opens a user interface: a window, or a framebuffer that needs no display. clench.view builds the viewer on it.
-@param options? {size?: number[], window?: boolean, title?: string, dark?: boolean, scale?: number}  size: width and height [pixels]; window: true opens one; scale: of fonts and sizes, by default that of the monitor
+@param options? table  size and look
+@option size? number[] [pixels] = {1070, 937}  width and height
+@option window? boolean = false  true: opens a window
+@option title? string = "Clench"  of the window
+@option dark? boolean = false  true: light text on a dark ground
+@option scale? number [> 0]  of fonts and sizes, by default 1, or that of the monitor
 @return ui
+@effect edits
 > u = clench.ui {size = {64, 48}}
 > u:frame(0.01, function(ui) ui:window("w", {x = 0, y = 0, width = 64, height = 48}, function() ui:button "go" end) end)
 > u:frame(0.01, function() end)
@@ -257,40 +258,60 @@ static const Entry ui_methods[] = {
 Describes and draws one frame.
 @param dt number [s]  time since the last frame
 @param draw fun(ui: ui)  describes the widgets of the frame
+@effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:text "hello" end) end)
 > ui:frame(0.01, function() error "no" end)  --> error: no)"},
     {"show", guarded<ui_show>, R"(
 Draws a world behind the panels, as a draft of clench.render.
 @param world world  world to draw
-@param options? table  eye, target, up, field_of_view, orthographic and those of clench.render that choose what is drawn
+@param options? table  the camera, and what is shown
+@option eye? vec3 [m]  position of the camera; by default a camera that shows everything
+@option target? vec3 [m]  point at which it looks
+@option up? vec3 = {0, 0, 1}  direction that is up in the picture
+@option field_of_view? number [rad, > 0]  vertical
+@option orthographic? number [m, > 0]  height that is shown
+@like clench.render  frame, contacts, cones, cone_height, patches, approach, ground, transparent_objects, file_colors, forces, force_scale, arrows
+@effect edits
 > ui:frame(0.01, function(ui) ui:show(world) end)
 > ui:show(world)  --> error: expected a call within ui:frame)"},
     {"read", guarded<ui_read>, R"(
 The pixels of the last frame.
 @return picture
+@effect reads
 > ui:frame(0.01, function() end)
 > ui:read()  --> picture of 320 x 240 pixels)"},
     {"hash", guarded<ui_hash>, R"(
 Hash of the pixels of the last frame.
 @return string
+@effect reads
 > ui:frame(0.01, function() end)
 > #ui:hash()  --> 16)"},
     {"input", guarded<ui_input>, R"(
 Adds input, which the next frames apply.
-@param event {kind: string, x?: number, y?: number, code?: integer, down?: boolean, text?: string}  kind: "move", "button", "wheel", "key", "text", "close" or "drop"; code: of a key of GLFW, or 0 left, 1 right, 2 middle
+@param event table  the synthetic event
+@option kind? "move"|"button"|"wheel"|"key"|"text"|"close"|"drop" = "move"  what happens
+@option x? number [pixels] = 0  position, or turns of the wheel
+@option y? number [pixels] = 0  position, or turns of the wheel
+@option code? integer = 0  of a key of GLFW, or 0 left, 1 right, 2 middle
+@option down? boolean = false  true: pressed, false: released
+@option text? string  typed text, or the dropped path
+@effect edits
 > ui:input {kind = "move", x = 5, y = 5}
 > ui:frame(0.01, function() end)
 > ui.mouse.x  --> 5.0)"},
     {"poll", guarded<ui_poll>, R"(
 Collects input of the window.
 @return boolean waiting  is there input that no frame has applied?
+@effect edits
 > ui:poll()  --> false)"},
     {"close", guarded<ui_close>, R"(
 Closes the window.
+@effect edits
 > ui:close()
 > ui:read()  --> error: the screen was closed)"},
     {"keep_open", guarded<ui_keep_open>, R"(
 Rejects a request to close the window: it stays open.
+@effect edits
 > ui:input {kind = "close"}
 > ui:frame(0.01, function() end)
 > ui:keep_open()
@@ -298,15 +319,21 @@ Rejects a request to close the window: it stays open.
     {"set_title", guarded<ui_set_title>, R"(
 Sets the title of the window.
 @param title string  new title
+@effect edits
 > ui:set_title "Clench"
 > ui.size[1]  --> 320.0)"},
     {"set_style", guarded<ui_set_style>, R"(
 Sets theme and sizes from the next frame on.
-@param options {dark?: boolean, scale?: number, font_size?: number}  font_size [pixels]
+@param options table  look; what is not given stays
+@option dark? boolean  true: light text on a dark ground
+@option scale? number [> 0]  of fonts and sizes
+@option font_size? number [pixels, > 0]  at scale 1
+@effect edits
 > ui:set_style {font_size = 0}  --> error: font_size)"},
     {"take_dropped", guarded<ui_take_dropped>, R"(
 Files that were dropped on the window since the last call.
 @return string[] paths
+@effect edits
 > ui:input {kind = "drop", text = "mug.obj"}
 > ui:frame(0.01, function() end)
 > ui:take_dropped()  --> {"mug.obj"})"},
@@ -314,6 +341,7 @@ Files that were dropped on the window since the last call.
 Is a key held?
 @param key integer  code of GLFW
 @return boolean
+@effect reads
 > ui:input {kind = "key", code = 65, down = true}
 > ui:frame(0.01, function() end)
 > ui:key_down(65)  --> true)"},

@@ -130,72 +130,101 @@ static const Entry ui_container_methods[] = {
     {"window", guarded<ui_window>, R"(
 A window with contents.
 @param name string  title, and after "##" more that makes it unique
-@param options {x?: number, y?: number, width?: number, height?: number, title?: boolean, resizable?: boolean, movable?: boolean, scroll?: boolean, background?: boolean, modal?: boolean, can_close?: boolean}  without a width it fits its contents
+@param options table  place and look
+@option x? number [pixels] = 0  of its left edge
+@option y? number [pixels] = 0  of its upper edge
+@option width? number [pixels] = 0  0: it fits its contents
+@option height? number [pixels] = 0  0: it fits its contents
+@option title? boolean = true  true: with a title bar
+@option resizable? boolean = false  true: the user can resize it
+@option movable? boolean = false  true: the user can move it
+@option scroll? boolean = true  true: with scroll bars if they are needed
+@option background? boolean = true  false: transparent
+@option modal? boolean = false  true: nothing else takes input
+@option can_close? boolean = false  true: with a button that closes it
 @param draw fun(ui: ui)  describes the contents
 @return boolean open  false: the user has closed it
+@effect edits
 > ui:frame(0.01, function(ui) open = ui:window("w", {can_close = true}, function() end) end)
 > open  --> true)"},
     {"child", guarded<ui_child>, R"(
 A part of a window that scrolls separately.
 @param id string  unique name
-@param options {width?: number, height?: number, border?: boolean}  0: all that is left; below 0: less than that
+@param options table  size and look
+@option width? number [pixels] = 0  0: all that is left; below 0: less than that
+@option height? number [pixels] = 0  0: all that is left; below 0: less than that
+@option border? boolean = false  true: with a border
 @param draw fun(ui: ui)  describes the contents
+@effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:child("part", {height = 20}, function() inside = true end) end) end)
 > inside  --> true)"},
     {"menu_bar", guarded<ui_menu_bar>, R"(
 The menu bar at the top of the screen.
 @param draw fun(ui: ui)  describes the menus
+@effect edits
 > ui:frame(0.01, function(ui) ui:menu_bar(function() ui:menu("File", function() end) end) end)
 > ui.items[1].label  --> File)"},
     {"menu", guarded<ui_menu>, R"(
 A menu.
 @param label string  title
 @param draw fun(ui: ui)  describes the entries
+@effect edits
 > ui:frame(0.01, function(ui) ui:menu_bar(function() ui:menu("File", function() end) end) end)
 > ui.items[1].kind  --> menu)"},
     {"menu_item", guarded<ui_menu_item>, R"(
 An entry of a menu.
 @param label string  text
-@param options? {shortcut?: string, selected?: boolean, enabled?: boolean}  shortcut: shown beside the text
+@param options? table  look
+@option shortcut? string  shown beside the text
+@option selected? boolean = false  true: with a mark
+@option enabled? boolean = true  false: gray, and without effect
 @return boolean clicked
+@effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() clicked = ui:menu_item("Open", {shortcut = "Ctrl+O"}) end) end)
 > clicked  --> false)"},
     {"popup", guarded<ui_popup>, R"(
 A popup that open_popup opens.
 @param id string  unique name
 @param draw fun(ui: ui)  describes the contents
+@effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:popup("more", function() shown = true end) end) end)
 > shown  --> nil)"},
     {"context_menu", guarded<ui_context_menu>, R"(
 A popup that a right click on the last widget opens.
 @param id string  unique name
 @param draw fun(ui: ui)  describes the contents
+@effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:button "go" ui:context_menu("more", function() shown = true end) end) end)
 > shown  --> nil)"},
     {"open_popup", guarded<ui_open_popup>, R"(
 Opens a popup.
 @param id string  its name
+@effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:open_popup "more" ui:popup("more", function() shown = true end) end) end)
 > shown  --> true)"},
     {"close_popup", guarded<ui_close_popup>, R"(
 Closes the popup that is being described.
+@effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:open_popup "more" ui:popup("more", function() ui:close_popup() end) end) end)
 > #ui.items  --> 1)"},
     {"disabled", guarded<ui_disabled>, R"(
 Widgets that are disabled, and gray, if `disabled` is true.
 @param disabled boolean  are they?
 @param draw fun(ui: ui)  describes the widgets
+@effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:disabled(true, function() ui:button "go" end) end) end)
 > ui.items[#ui.items].enabled  --> false)"},
     {"id", guarded<ui_id>, R"(
 A scope for labels: those of its widgets may equal labels outside it.
 @param id string  unique name
 @param draw fun(ui: ui)  describes the widgets
+@effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:id("a", function() ui:button "go" end) ui:id("b", function() ui:button "go" end) end) end)
 > #ui.items  --> 3)"},
     {"group", guarded<ui_group>, R"(
 Widgets laid out as one.
 @param draw fun(ui: ui)  describes the widgets
+@effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:group(function() ui:text "a" ui:text "b" end) end) end)
 > #ui.items  --> 3)"},
     {"tabs", guarded<ui_tabs>, R"(
@@ -203,15 +232,20 @@ Tabs.
 @param id string  unique name
 @param names string[]  of the tabs
 @param draw fun(ui: ui, name: string)  describes the open one
+@effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:tabs("t", {"one", "two"}, function(ui, name) chosen = name end) end) end)
 > chosen  --> one)"},
     {"tree", guarded<ui_tree>, R"(
 A node of a tree.
 @param label string  text
-@param options {open?: boolean, leaf?: boolean, selected?: boolean}  open: at first
+@param options table  look
+@option open? boolean = false  true: open at first
+@option leaf? boolean = false  true: without children
+@option selected? boolean = false  true: highlighted
 @param draw? fun(ui: ui)  describes what is below it
 @return boolean clicked
 @return boolean double_clicked
+@effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() clicked = ui:tree("node", {leaf = true}) end) end)
 > clicked  --> false)"},
     {"collapsing", guarded<ui_collapsing>, R"(
@@ -220,18 +254,22 @@ A section with a title that folds it.
 @param open boolean  at first
 @param draw fun(ui: ui)  describes the contents
 @return boolean open
+@effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() open = ui:collapsing("more", true, function() end) end) end)
 > open  --> true)"},
     {"table", guarded<ui_table>, R"(
 A table, filled cell by cell after next_column.
 @param id string  unique name
 @param columns string[]  titles
-@param options {height?: number}  0: as high as its rows [pixels]
+@param options table  size
+@option height? number [pixels] = 0  0: as high as its rows
 @param draw fun(ui: ui)  describes the cells
+@effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:table("t", {"a", "b"}, {}, function() ui:next_column() ui:text "1" end) end) end)
 > ui:table("t", {"a"}, {}, print)  --> error: expected a call within ui:frame)"},
     {"next_column", guarded<ui_next_column>, R"(
 Moves on to the next cell of a table.
+@effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:table("t", {"a", "b"}, {}, function() for i = 1, 4 do ui:next_column() ui:text(tostring(i)) end end) end) end)
 > ui:next_column()  --> error: expected a call within ui:frame)"},
 };

@@ -99,6 +99,7 @@ static const Entry body_methods[] = {
 The same body in a clone of its world, or in the world of which its own is a clone.
 @param world world  a clone of its world, or the world of which its own is a clone
 @return body
+@effect reads
 > copy = world:clone()
 > flask:in_world(copy).world == copy, flask:in_world(copy).name  --> true, flask
 > flask:in_world(clench.world())  --> error: expected a clone of its world)"},
@@ -107,6 +108,7 @@ Moves an object or obstacle along the straight line and shortest turn until it f
 remains is within the contact threshold. A body that starts in contact may slide along it or move away, but not move inwards.
 @param pose pose  target pose in the world
 @return table result  `fraction` of the way gone, `touched`, `stopped_by` (pairs), `iteration_limit` (after a million steps), `queries`
+@effect edits
 > cube = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {pose = {xyz = {0, 0, 9}}})
 > floor = world:add_obstacle(clench.shapes.box {1, 1, 1}, {pose = {xyz = {0, 0, 7}}})
 > cube:move_to{xyz = {0, 0, 7}}.touched  --> true

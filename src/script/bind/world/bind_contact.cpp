@@ -61,8 +61,8 @@ static int fit_patch(lua_State* L) {
   const auto& c = self<ContactHandle>(L);
   Table table(L, 2);
   PatchOptions options;
-  if (table.has("radius")) options.radius = table.positive("radius", 1);
-  options.max_radius = table.positive("max_radius", options.max_radius);
+  if (table.has("radius")) options.radius = table.number("radius");
+  options.max_radius = table.number("max_radius", options.max_radius);
   options.fit =
       table.choice("fit", {{"quadric", PatchFit::quadric}, {"jet", PatchFit::jet}}, options.fit);
   table.done();
@@ -129,12 +129,12 @@ Contact frame: origin at the point, +z into `body`.
     {"feature", getter<[](const ContactHandle& x) { return x.contact.feature; }>, R"(
 The feature of the body's mesh that the contact lies on: a vertex, an edge between two, a triangle, or a round piece, counted from 1.
 It stays the same while the contact moves along it, so that contacts can be matched from step to step.
-@type {kind: "vertex"|"edge"|"triangle"|"round", vertices?: integer[], triangle?: integer, piece?: integer}
+@type {kind: "vertex"|"edge"|"triangle"|"round", vertices?: index[], triangle?: index, piece?: index}
 > kinds = {vertex = true, edge = true, triangle = true, round = true}
 > kinds[grasp.contacts[1].feature.kind]  --> true)"},
     {"other_feature", getter<[](const ContactHandle& x) { return x.contact.other_feature; }>, R"(
 The corresponding feature of the mesh of `other`.
-@type {kind: "vertex"|"edge"|"triangle"|"round", vertices?: integer[], triangle?: integer, piece?: integer}
+@type {kind: "vertex"|"edge"|"triangle"|"round", vertices?: index[], triangle?: index, piece?: index}
 > kinds = {vertex = true, edge = true, triangle = true, round = true}
 > kinds[grasp.contacts[1].other_feature.kind]  --> true)"},
     {"gap", getter<[](const ContactHandle& x) { return x.contact.gap; }>, R"(
@@ -181,6 +181,7 @@ The patch of a soft contact, fitted with other options; nil for other kinds.
 @option max_radius? number [m, > 0] = 0.02  stands for a relative radius that is none
 @option fit? "quadric"|"jet" = "quadric"  quadric: our own; jet: CGAL's
 @return patch?
+@effect reads
 > flask.elastic_modulus = 1.5e6
 > world:contacts(hand, flask)[1]:fit_patch{radius = 0.002}.radius  --> 0.002
 > world:contacts(hand, flask)[1]:fit_patch{fit = "jets"}  --> error: did you mean 'jet'?)"},

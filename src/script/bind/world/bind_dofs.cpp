@@ -274,7 +274,9 @@ static const Entry dofs_methods[] = {
 Sets DOFs at once, without collision checks; see move_dofs. Joints that had broken away, or were held against their
 springs, follow their DOFs again, except those that the options name by chain, joint and present value [rad or m].
 @param values number[]|table<string, number>  within the limits: all, or some by their names, the others as they are [rad or m]
-@param options? {joint_positions?: number[][]}  rows {chain, joint, value}
+@param options? table  joints of compliant DOFs
+@option joint_positions? number[][] [rad or m]  rows {chain, joint, value}
+@effect edits
 > hand:set_dofs{dof1 = 0, dof3 = 0.2}
 > hand.dofs[3]  --> 0.2
 > hand:set_dofs{dof44 = 0.2}  --> error: has no DOF 'dof44'; did you mean 'dof4'?
@@ -285,7 +287,8 @@ Sets the pose of its base and all its DOFs at once, without collision checks; DO
 their DOFs.
 @param pose pose  pose of the base in the world
 @param values number[]|table<string, number>  one per DOF, or some by name [rad or m]
-@return integer[]?  DOFs that stopped at a limit; nil: none
+@return index[]?  DOFs that stopped at a limit; nil: none
+@effect edits
 > hand:set_posture(hand.pose, hand.dofs)  --> nil
 > hand:set_posture(hand.pose, {1})  --> error: expected 12 DOF values, got 1)"},
     {"move_dofs", guarded<move_dofs>, R"(
@@ -294,6 +297,7 @@ Drives all DOFs proportionally towards the given values, until contact stops the
 @param options? table  how it moves
 @option stop_at_contact? boolean = false  true: end at the first new contact of any link
 @return table result  as of autograsp
+@effect edits
 > hand:move_dofs(hand.dofs).moved  --> false)"},
     {"autograsp", guarded<autograsp>, R"(
 Closes the hand: each DOF moves towards its limit in the direction of its default velocity until contact stops it. Breakaway
@@ -303,10 +307,11 @@ opens the hand. With `dynamic` nothing moves yet: its motors are set to close wh
 @param options? table  how it closes
 @option speed? number = 1  of all closing speeds, 1: those of the hand; negative: opens
 @option stop_at_contact? boolean = false  true: end at the first new contact of any link
-@option dofs? (integer|string)[]  only these, by number or name
-@option stages? (integer|string)[][]  lists of DOFs that close one after the other
+@option dofs? (index|string)[]  only these, by number or name
+@option stages? (index|string)[][]  lists of DOFs that close one after the other
 @option dynamic? boolean = false  true: by the motors, in simulated time
 @return table result  `moved`, `stops` (one per DOF: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
+@effect edits
 > hand:autograsp().moved  --> false
 > hand:open()
 > hand:autograsp{dofs = {"dof2", 3}}.stops[1]  --> not_driven
@@ -316,6 +321,7 @@ opens the hand. With `dynamic` nothing moves yet: its motors are set to close wh
 Opens the hand as far as possible. A hand that overlaps something is opened regardless of contacts until it is free.
 @param options? table  no options yet
 @return table result  as of autograsp
+@effect edits
 > hand:open().moved  --> true
 > #world:contacts(hand, flask)  --> 0)"},
 };

@@ -68,10 +68,7 @@ static int make(lua_State* L) {
   if (options.has("postures")) {
     std::vector<VectorXd> postures;
     for (const auto& row : options.rows("postures")) postures.push_back(vector_of(row));
-    const int count = options.integer("count", 0);
-    if (options.has("count") && count < 1)
-      fail("{}: count: expected 1 or more, got {}", subject(L), count);
-    set = principal_eigengrasps(postures, count);
+    set = principal_eigengrasps(postures, options.integer("count", 0));
   } else if (options.has("vectors")) {
     set = set_from_vectors(options);
   } else {
@@ -133,8 +130,16 @@ static const Entry eigengrasps_functions[] = {
 A set of eigengrasps: the principal components of `postures`, the strongest first, with their mean as the origin; or
 the given `vectors`, normalized. The largest entry of each principal component is positive, and its eigenvalue is the
 variance along it. `count` keeps the first ones. Give the set to a hand: hand.eigengrasps = set.
-@param options {postures?: number[][], count?: integer, vectors?: number[][], eigenvalues?: number[], origin?: number[], norm?: number[], limits?: number[][]}
+@param options table  postures to analyze, or the vectors themselves
+@option postures? number[][] [rad or m]  DOF values, whose principal components are computed
+@option count? integer [>= 1]  largest number of eigengrasps from postures
+@option vectors? number[][]  one per eigengrasp, instead of postures
+@option eigenvalues? number[]  one per vector, 0.5 by default
+@option origin? number[] [rad or m]  posture at which all amplitudes are 0
+@option norm? number[]  scales of the DOFs
+@option limits? number[][]  {low, high} of each amplitude
 @return eigengrasps
+@effect reads
 > set = clench.eigengrasps{postures = {{0, 0}, {1, 2}, {2, 4}}}
 > #set  --> 1
 > math.abs(set.vectors[1][2] / set.vectors[1][1] - 2) < 1e-12  --> true
@@ -200,6 +205,7 @@ static const Entry eigengrasps_methods[] = {
 Amplitudes for which the set's posture is nearest to the DOF values; without these, to the hand's own.
 @param dofs? number[]  [rad or m]
 @return number[]
+@effect reads
 > set = clench.eigengrasps{vectors = {{1, 0, 0}, {0, 3, 4}}}
 > set:amplitudes{2, 3, 4}  --> {2.0, 5.0}
 > set:amplitudes{1}  --> error: expected 3 DOF values, got 1)"},
@@ -207,8 +213,10 @@ Amplitudes for which the set's posture is nearest to the DOF values; without the
 DOF values of amplitudes; they may lie outside the limits. With `from`, the component of that posture that no
 amplitudes represent is kept.
 @param amplitudes number[]  one amplitude per eigengrasp
-@param options? {from?: number[]}
+@param options? table  the posture to begin with
+@option from? number[] [rad or m]  posture whose part outside of the eigengrasps is kept
 @return number[]  [rad or m]
+@effect reads
 > set = clench.eigengrasps{vectors = {{1, 0, 0}, {0, 3, 4}}}
 > set:dofs{2, 5}  --> {2.0, 3.0, 4.0}
 > set:dofs({2, 5}, {from = {0, 4, -3}})  --> {2.0, 7.0, 1.0}
@@ -216,6 +224,7 @@ amplitudes represent is kept.
     {"save", guarded<eigengrasps_save>, R"(
 Writes the set to a file, .egr or .xml; clench.files.eigengrasps reads it.
 @param path string  file to write; its ending selects the format
+@effect files
 > hand.eigengrasps:save "eigengrasps.doc"  --> error: expected a file of eigengrasps, .egr or .xml, got '.doc')"},
 };
 

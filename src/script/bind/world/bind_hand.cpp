@@ -346,7 +346,7 @@ DOF = intercept + slopes * raw. nil if there is none.
 > hand.glove  --> nil)"},
     {"tracker", getter<[](const RobotHandle& x) { return x->tracker; }>, R"(
 Position sensor on it: its `number` and its mounting `pose` in the base. nil if there is none.
-@type {number: integer, pose: pose}?
+@type {number: index, pose: pose}?
 > hand.tracker  --> nil)"},
     {"tendons", guarded<get_tendons>, R"(
 Tendons of its file, unchanged; they exert no force. Points are in the frame of their link.
@@ -361,7 +361,7 @@ side of it the others pass. They have no effect.
 Fixed tendons of an MJCF file that have a range, a spring or friction: `length` is the sum of `arms` times `dofs`. In
 simulations the length stays in `range`, a spring acts if it is outside `slack`, and each DOF receives its moment arm times the
 force of the tendon. They are ignored by methods that set DOFs without a simulation, and by the engine "ode".
-@type {name: string, dofs: integer[], arms: number[], length: number, range?: number[], stiffness: number, slack: number[], damping: number, friction: number}[]
+@type {name: string, dofs: index[], arms: number[], length: number, range?: number[], stiffness: number, slack: number[], damping: number, friction: number}[]
 > #hand.joint_tendons  --> 0)"},
     {"actuators", guarded<get_actuators>, R"(
 Actuators as an MJCF file describes them: `name`, `kind` ("motor", "position", "general"), `joint` or
@@ -384,8 +384,11 @@ static const Entry hand_methods[] = {
     {"set_amplitudes", guarded<set_amplitudes>, R"(
 Sets the posture given by amplitudes of its eigengrasps, without collision checks. DOFs stop at their limits.
 @param amplitudes number[]  one amplitude per eigengrasp
-@param options? {keep?: boolean, fixed?: integer[]}  keep: what its posture has besides its amplitudes is kept; fixed: these amplitudes stay as they are
-@return integer[] clamped  numbers of the DOFs whose limit was in the way
+@param options? table  what is kept
+@option keep? boolean = false  true: the part of the posture that is no combination of eigengrasps is kept
+@option fixed? index[]  numbers of the amplitudes that stay as they are
+@return index[] clamped  numbers of the DOFs whose limit was in the way
+@effect edits
 > hand.eigengrasps = clench.eigengrasps{vectors = {{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}}}
 > hand:set_amplitudes{0.1}  --> {}
 > hand:set_amplitudes{100}  --> {1, 4, 7, 10}
@@ -395,20 +398,33 @@ Sets the posture given by amplitudes of its eigengrasps, without collision check
     {"move_amplitudes", guarded<move_amplitudes>, R"(
 Drives the DOFs towards the posture of the given amplitudes, as move_dofs does, until contact stops them.
 @param amplitudes number[]  one amplitude per eigengrasp
-@param options? {keep?: boolean, fixed?: integer[], stop_at_contact?: boolean}  keep and fixed as of set_amplitudes
+@param options? table  how it moves
+@like hand:set_amplitudes
+@option stop_at_contact? boolean = false  true: end at the first new contact of any link
 @return table result  as of autograsp, and `clamped`, numbers of the DOFs whose limit was in the way
+@effect edits
 > hand:move_amplitudes(hand.amplitudes, {keep = true}).moved  --> false)"},
     {"add_virtual_contact", guarded<add_virtual_contact>, R"(
 Adds a virtual contact: at a present contact, or in the frame of a link (a body or its name).
-@param contact contact|virtual_contact|{link: body|string, point?: vec3, normal?: vec3, frame?: pose, mu?: number, torsion_radius?: number, edges?: number[][]}  normal: out of the link; mu 1 by default
+@param contact contact|virtual_contact|table  a contact to mark, or a table of these options
+@option link body|string|index  the link or its name; or its number on the chain
+@option chain? integer [>= 0]  number of the chain of a link that is given by its number; 0: the base
+@option point? vec3 [m]  in the link
+@option normal? vec3  out of the link
+@option frame? pose  instead of point and normal: z out of the link
+@option mu? number [0 to 1e6] = 1  coefficient of friction
+@option torsion_radius? number [m, >= 0] = 0  of a soft contact
+@option edges? number[][]  of the friction pyramid, instead of torsion_radius
 @return virtual_contact
+@effect edits
 > hand.virtual_contacts = {}
 > for _, c in ipairs(world:contacts(hand, flask)) do hand:add_virtual_contact(c) end
 > #hand.virtual_contacts == #world:contacts(hand, flask)  --> true
 > hand:add_virtual_contact{link = "thumb"}  --> error: has no link 'thumb')"},
     {"remove_virtual_contact", guarded<remove_virtual_contact>, R"(
 Removes a virtual contact from its list.
-@param number integer  number of the contact, from 1
+@param number index  number of the contact
+@effect edits
 > count = #hand.virtual_contacts
 > hand:remove_virtual_contact(1)
 > #hand.virtual_contacts == count - 1  --> true
@@ -421,11 +437,13 @@ speed along its normal, and one on the palm. Sets nothing.
 @option palm? boolean = true  true: one on the palm, too
 @option object_material? string = "wood"  material to be grasped
 @return virtual_contact[]
+@effect reads
 > #hand:find_virtual_contacts()  --> 13
 > #hand:find_virtual_contacts{count_per_link = 2, palm = false}  --> 24)"},
     {"save_virtual_contacts", guarded<save_virtual_contacts>, R"(
 Writes its virtual contacts to a file, .vgr or .xml; clench.files.virtual_contacts reads it.
 @param path string  file to write
+@effect files
 > hand:save_virtual_contacts "sites.doc"  --> error: expected a file of virtual contacts, .vgr or .xml, got '.doc')"},
 };
 

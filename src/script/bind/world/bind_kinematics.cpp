@@ -44,8 +44,8 @@ static IkOptions read_ik_options(lua_State* L, int i, const RobotHandle& robot) 
   lua_pop(L, 1);
   out.starts = options.integer("starts", out.starts);
   out.seed = options.seed("seed", out.seed);
-  out.tolerance = options.positive("tolerance", out.tolerance);
-  out.angle_tolerance = options.positive("angle_tolerance", out.angle_tolerance);
+  out.tolerance = options.number("tolerance", out.tolerance);
+  out.angle_tolerance = options.number("angle_tolerance", out.angle_tolerance);
   out.collision_free = options.boolean("collision_free", out.collision_free);
   options.done();
   return out;
@@ -81,13 +81,14 @@ returns the nearest ones, with a turn by 1 rad weighted like a displacement of 0
 @param options? table  what is reached, and how it is searched for
 @option frame? pose  what of the link is to be there, in its own frame
 @option orientation? "full"|"axis"|"none" = "full"  axis: only the direction of +z is matched
-@option dofs? (integer|string)[]  that may move, all by default
+@option dofs? (index|string)[]  that may move, all by default
 @option starts? integer [1 to 1000000] = 20  largest number of starts, the first from where it is, the others at random
 @option seed? integer = 0  seed of the random numbers
 @option tolerance? number [m, > 0] = 1e-6  of the position
 @option angle_tolerance? number [rad, > 0] = 1e-6  of the orientation
 @option collision_free? boolean = false  true: nothing that it moves may collide
 @return table result  `reached`, `dofs`, `distance` [m] and `angle` [rad] from the pose, `starts`, `iterations`, `in_collision` (starts that reached it, but collided)
+@effect reads
 > target = hand:link("chain0_link2").pose.position + clench.vec3(0, 0, 0.01)
 > result = hand:ik("chain0_link2", {xyz = target}, {orientation = "none"})
 > result.reached and result.distance < 1e-6  --> true
@@ -101,6 +102,7 @@ axes, and a column for each DOF, including those of its joints that follow it.
 @param link body|string  a link, or its name; or a body of a robot that it carries
 @param point? vec3  in its frame, its origin by default [m]
 @return number[][]
+@effect reads
 > J = hand:jacobian("chain0_link2", {0, 0, 0.01})
 > {#J, #J[1]}  --> {6, 12}
 > J[1][12]  --> 0.0)"},
@@ -109,6 +111,7 @@ Values for all its DOFs, uniformly distributed within the limits; an endless DOF
 within dof_limits around its present value. Moves nothing.
 @param random random  source of the random numbers
 @return number[]  [rad or m]
+@effect reads
 > hand.dofs = hand:random_posture(clench.random(1))
 > hand.dofs[12] == hand:random_posture(clench.random(1))[12]  --> true)"},
 };

@@ -134,7 +134,7 @@ A list of all vertices in the body frame.
 > #world:add_object(clench.shapes.box {1, 1, 1}).mesh.vertices  --> 8)"},
     {"triangles", guarded<get_triangles>, R"(
 A list of all triangles: vertex numbers from 1, counter-clockwise from outside.
-@type integer[][]
+@type index[][]
 > #world:add_object(clench.shapes.box {1, 1, 1}).mesh.triangles  --> 12)"},
 };
 
@@ -142,28 +142,33 @@ static const Entry mesh_methods[] = {
     {"is_watertight", method<[](const ShapePtr& x) { return x->closed(); }>, R"(
 Does the surface bound a solid: does every edge join two triangles of consistent orientation?
 @return boolean
+@effect reads
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh:is_watertight()  --> true)"},
     {"closest_point", guarded<closest>, R"(
 The surface point nearest to a point of the body frame, with the outward normal of its triangle there.
 @param point vec3  [m]
-@return {point: vec3, normal: vec3, triangle: integer, distance: number}  [m]
+@return {point: vec3, normal: vec3, triangle: index, distance: number}  [m]
+@effect reads
 > near = world:add_object(clench.shapes.box {1, 1, 1}).mesh:closest_point {0.1, 0, 2}
 > near.point, near.normal, near.distance  --> (0.1, 0, 0.5), (0, 0, 1), 1.5)"},
     {"contains", guarded<holds>, R"(
 Is a point of the body frame inside the solid? No point is inside an open mesh.
 @param point vec3  [m]
 @return boolean
+@effect reads
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh:contains {0.1, 0, 0.4}  --> true)"},
     {"sample", guarded<sample>, R"(
 Random points on the surface, uniformly distributed by area, with the outward normals of their triangles.
 @param random random  source of the random numbers
 @param count integer [0 to 1000000]  number of points
-@return {point: vec3, normal: vec3, triangle: integer}[]  [m]
+@return {point: vec3, normal: vec3, triangle: index}[]  [m]
+@effect reads
 > points = flask.mesh:sample(clench.random(1), 3)
 > #points, flask.mesh:closest_point(points[1].point).distance < 1e-9  --> 3, true)"},
     {"save", guarded<mesh_save>, R"(
 Writes the triangles, in meters. Numbers are written with all digits, in .stl with seven.
 @param path string  .obj .off .ply .stl
+@effect files
 > path = os.tmpname() .. ".obj"
 > flask.mesh:save(path)
 > world:add_object(path).mesh.volume == flask.mesh.volume  --> true

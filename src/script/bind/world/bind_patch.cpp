@@ -60,7 +60,6 @@ static int get_patch_points(lua_State* L) {
 static std::pair<double, ModulusRule> read_pressing(lua_State* L) {
   Table options(L, 2);
   const double force = options.number("force", 5);
-  if (force < 0) fail("{}: force: expected a number >= 0, got {}", subject(L), force);
   const ModulusRule rule = read_modulus_rule(options);
   options.done();
   return {force, rule};
@@ -145,16 +144,21 @@ mean. It is nowhere wider than the bodies. At a corner, an edge or a rim the sem
 touches, in which the gap is at most the indentation of flat surfaces; the indentation is the depth at which the
 springs under the actual gap add up to the force, within the neighborhood. `exceeds_layer`: does it exceed the
 thickness of the soft layers, beyond which the model is invalid?
-@param options? {force?: number, modulus?: string}  normal force, 5 [N]; "series": both layers give way; "larger": only that of the larger modulus, as in GraspIt!
+@param options? table  how it is pressed
+@option force? number [N, >= 0] = 5  normal force
+@option modulus? "series"|"larger" = "series"  series: both layers yield; larger: only that of the larger modulus, as in GraspIt!
 @return {semi_axes: number[], indentation: number, pressure: number, torsion_radius: number, exceeds_layer: boolean}  [m], [m], [Pa], [m]
+@effect reads
 > e = patch:ellipse{force = 5}
 > math.abs(e.pressure - 1.5e6 * e.indentation / 0.003) < 1e-3  --> true
 > e.exceeds_layer, patch:ellipse{force = 1000}.exceeds_layer  --> false, true
 > patch:ellipse{force = -1}  --> error: >= 0)"},
     {"torsion_limit", guarded<torsion_limit>, R"(
 The largest torque about the normal that the contact resists, at rest: mu F times the torsion radius.
-@param options? {force?: number, modulus?: string}  as of `ellipse`
+@param options? table  how it is pressed
+@like patch:ellipse
 @return number  [N m]
+@effect reads
 > patch:torsion_limit{force = 10} > patch:torsion_limit{force = 5}  --> true)"},
 };
 

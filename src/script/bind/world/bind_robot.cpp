@@ -258,24 +258,28 @@ static const Entry robot_methods[] = {
 The same robot in a clone of its world, or in the world of which its own is a clone.
 @param world world  a clone of its world, or the world of which its own is a clone
 @return robot
+@effect reads
 > copy = world:clone()
 > hand:in_world(copy).world == copy, hand:in_world(copy) == hand  --> true, false)"},
     {"link", guarded<link>, R"(
 A link, or the base, by its name, with or without the robot's.
 @param name string  name of the link
 @return body
+@effect reads
 > hand:link "chain0_link2" == hand.chains[1].links[3]  --> true
 > hand:link "chain9_link0"  --> error: has no link)"},
     {"move_to", guarded<robot_move_to>, R"(
 Moves the robot by its base until it first touches something, as a body's move_to.
 @param pose pose  target pose of the base in the world
 @return table result  `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
+@effect edits
 > hand:move_to(hand.pose).fraction  --> 1.0)"},
     {"approach_object", guarded<approach_object>, R"(
 Moves the hand along its approach direction until it touches something.
 @param options? table  how far
 @option reach? number [m, >= 0] = 1  longest travel
 @return table result  `fraction`, `touched`, `stopped_by`, `iteration_limit`, `queries`
+@effect edits
 > hand:approach_object{reach = -1}  --> error: reach)"},
     {"place_approach", guarded<place_approach>, R"(
 Places the hand so that its approach point is in front of a target and its approach direction points there, without collision
@@ -283,16 +287,24 @@ checks. See `approach`.
 @param target pose|vec3  of the approach frame, +z along the direction, or its point
 @param direction? vec3  of approach, with a point: then the hand's turn about it follows from the world's x axis
 @param standoff? number  how far before the target, 0 by default [m]
+@effect edits
 > hand:place_approach(flask.pose.position, {0, 0, -1}, 0.1)
 > (hand.approach.point - flask.pose.position - clench.vec3(0, 0, 0.1)):norm() < 1e-12  --> true
 > hand.approach.direction.z  --> -1.0)"},
     {"mount_on", guarded<mount_on>, R"(
 Fixes the robot to a link of another one: to the named one, or the last of a chain. From then on it moves with that link.
 @param parent robot  robot that carries this one
-@param options? {chain?: integer, link?: string, pose?: pose, adapter?: string, root?: string, confine?: string, strict?: boolean}  chain 1 by default; pose of the base in the link; file of an adapter
+@param options? table  where, and by which adapter
+@option chain? index = 1  chain whose last link carries it
+@option link? string  name of another link that carries it
+@option pose? pose  of the base in the link
+@option adapter? string  file of a body between the link and the base
+@like clench.load  root, confine, strict, unit, mesh_scale
+@effect edits, files
 > hand:mount_on(hand)  --> error: which it carries itself)"},
     {"dismount", method<[](const RobotHandle& x) { x.world->unmount(x.id); }>, R"(
 Detaches the robot from the one that carries it: it keeps its pose, without its adapter.
+@effect edits
 > hand:dismount()  --> error: is not carried by another robot)"},
 };
 

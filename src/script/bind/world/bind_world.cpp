@@ -175,8 +175,16 @@ static std::string snapshot_text(const SnapshotHandle& x) {
 static const Entry world_functions[] = {
     {"world", guarded<new_world>, R"(
 An empty world.
-@param options? {contact_threshold?: number, gravity?: vec3, dynamics?: {time_step?: number, engine?: string, cone?: string, edges?: integer}}  contact_threshold: surfaces closer than this touch, 1e-4 by default [m]; gravity: {0, 0, -9.81} by default [m/s^2]; dynamics: as of world.dynamics
+@param options? table  settings of the empty world
+@option contact_threshold? number [m, 1e-9 to 0.01] = 1e-4  surfaces closer than this touch
+@option gravity? vec3 [m/s^2] = {0, 0, -9.81}  gravitational acceleration
+@option dynamics? table  as of world.dynamics
+@option dynamics.time_step? number [s, 1e-7 to 1] = 0.001  length of a step
+@option dynamics.engine? "clench"|"ode" = "clench"  library that solves the contacts
+@option dynamics.cone? "round"|"pyramid" = "round"  friction cones
+@option dynamics.edges? integer [4 to 64] = 8  of pyramids, an even number
 @return world
+@effect reads
 > #clench.world().bodies  --> 0)"},
     {"load", guarded<load_world>, R"(
 A world from a file. Names in it are looked up next to the file, then below the root. A .lua file is run with two
@@ -185,8 +193,25 @@ files are read, only files below that folder are read, after resolving links, an
 A scene of MuJoCo is converted: every tree of joints becomes a robot, free bodies objects, fixed bodies obstacles. For the file
 of a robot or a body, the result is a world with only that robot or body.
 @param path string  .wld, .xml, .lua or .mjcf; or any file of a robot or a body
-@param options? {root?: string, confine?: string, strict?: boolean, keyframe?: string, folder?: string, package?: string|table, unit?: string, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: table}  strict: treat warnings as errors; keyframe: the named state to begin with; the rest as add_robot and add_object have it, for a file of one robot or body
+@param options? table  how the file is read
+@option root? string  folder in which names in files are looked up after the folder of the file
+@option confine? string  folder outside of which no file is read, by default that of --confine
+@option strict? boolean = false  true: warnings are errors
+@option keyframe? string  saved state to begin with
+@option unit? "mm"|"cm"|"m"|"inch"|"foot"  of the coordinates in files of meshes; by default what the file states, else a guess, which is logged
+@option mesh_scale? number [m, 1e-12 to 1e12]  length of that unit, instead of `unit`
+@option folder? string  another folder in which names in the file of a robot are looked up
+@option body? string  of a scene of MuJoCo: body with which the robot's tree of joints begins
+@option package? string|table  folder of the packages of a URDF, or folders by name
+@option eigengrasps? string  file to read instead of that which the robot's file names
+@option virtual_contacts? string  file to read instead of that which the robot's file names
+@option close? table  directions in which DOFs close, {index_1 = 1, thumb = -1, [3] = 0}
+@option approach? table  approach of the hand in its base: `point` and `direction`, or `frame`
+@option approach.point? vec3 [m] = {0, 0, 0}  approach point
+@option approach.direction? vec3  approach direction
+@option approach.frame? pose  z along the direction
 @return world
+@effect files
 > #clench.load("worlds/dlr_flask.wld", {root = "."}).robots  --> 1
 > #clench.load("models/objects/flask.iv", {root = "."}).objects  --> 1
 > clench.load("models/objects/flask.iv", {root = ".", keyframe = "home"})  --> error: no keyframe 'home' in this world, which has none
@@ -221,49 +246,79 @@ static const Entry world_methods[] = {
 The body with a name.
 @param name string  name of the body
 @return body
+@effect reads
 > world:body(flask.name) == flask  --> true
 > world:body "no such thing"  --> error: no body)"},
     {"robot", guarded<robot>, R"(
 The robot with a name.
 @param name string  name of the robot
 @return robot
+@effect reads
 > world:robot(hand.name) == hand  --> true
 > world:robot "no such thing"  --> error: no robot)"},
     {"add_object", guarded<add_object>, R"(
 Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in meters. Values in the
 options override the file.
 @param body string|mesh|table  file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
-@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, soft_layer?: number, poisson_ratio?: number, restitution?: number, free_damping?: number, free_friction?: number, free_armature?: number, gravity_compensation?: number, color?: number[], transparency?: number, root?: string, confine?: string, strict?: boolean, unit?: string, mesh_scale?: number}  density: instead of the mass, of a watertight mesh [kg/m^3]; unit: of the file's coordinates, "mm", "cm", "m", "inch" or "foot"; mesh_scale: the same as a length [m]; without both what the file says, or else a guess, which is logged
+@param options? table  the body, and how it is read
+@option pose? pose  in the world
+@option name? string  name of the body, by default that of the file
+@option material? string  name of its material
+@option mass? number [kg, 1e-12 to 1e12]  by default that of the file
+@option density? number [kg/m^3, 1e-12 to 1e12]  of a watertight mesh, instead of the mass
+@option com? vec3 [m]  center of mass
+@option inertia? number[][] [kg m^2]  3 rows of 3
+@option elastic_modulus? number [Pa, 1e-3 to 1e15]  of a soft body
+@option soft_layer? number [m, 1e-9 to 1e9]  thickness of the soft layer
+@option poisson_ratio? number [0 to 0.499999]  of the soft layer
+@option restitution? number [0 to 1]  speed after an impact by that before
+@option free_damping? number [>= 0]  damping of its motion, as a free joint has it
+@option free_friction? number [>= 0]  friction of its motion, as a free joint has it
+@option free_armature? number [>= 0]  inertia that is added to its own, as a free joint has it
+@option gravity_compensation? number  part of its weight that is compensated
+@option color? number[]  red, green and blue, 0 to 1
+@option transparency? number [0 to 1]  0: opaque
+@like clench.load  root, confine, strict, unit, mesh_scale
 @return body
+@effect edits, files
 > world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "cube", mass = 0.2}).mass  --> 0.2
 > math.abs(world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {density = 1000}).mass - 1) < 1e-12  --> true
 > world:add_object "flsk.iv"  --> error: flsk.iv)"},
     {"add_obstacle", guarded<add_obstacle>, R"(
 Adds a body that serves only as an obstacle; options as for add_object.
 @param body string|mesh|table  file name, mesh, or vertices and triangles, as world:add_object takes them
-@param options? table  options of world:add_object, apart from those of moving bodies
+@param options? table  the body, and how it is read
+@like world:add_object
 @return body
+@effect edits, files
 > world:add_obstacle(clench.shapes.box {1, 1, 0.1}, {pose = {xyz = {0, 0, -2}}}).kind  --> obstacle)"},
     {"add_robot", guarded<add_robot>, R"(
 Adds a robot from a file.
 @param path string  .cfg .xml .urdf .mjcf
-@param options? {pose?: pose, name?: string, root?: string, confine?: string, strict?: boolean, body?: string, folder?: string, package?: string|table, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: {point?: vec3, direction: vec3}|{frame: pose}}  body: of a scene of MuJoCo, the body that the robot's tree of joints begins with; folder: where names in the file are looked up, too; package: folder of the packages of a URDF, or folders by name; eigengrasps, virtual_contacts: files to read in place of those it names; close: which DOFs close it, {index_1 = 1, thumb = -1, [3] = 0}; approach: how it approaches, in its base
+@param options? table  the robot, and how it is read
+@option pose? pose  of its base, in the world
+@option name? string  name of the robot, by default that of the file
+@like clench.load  root, confine, strict, unit, mesh_scale, folder, body, package, eigengrasps, virtual_contacts, close, approach
 @return robot
+@effect edits, files
 > world:add_robot("nothing.cfg")  --> error: nothing.cfg)"},
     {"remove", guarded<remove>, R"(
 Removes an object, an obstacle or a complete robot. Using it afterwards is an error that names it.
 @param entity body|robot  body or robot to remove
+@effect edits
 > world:remove(flask)
 > flask.pose  --> error: was removed)"},
     {"clone", guarded<clone>, R"(
 An independent copy that shares the meshes. Its bodies and robots are found by name, or by their places in its lists.
 @return world
+@effect reads
 > copy = world:clone()
 > copy == world  --> false
 > copy:hash() == world:hash()  --> true)"},
     {"become", guarded<become>, R"(
 Copies everything from a clone of the world: state, bodies, robots and settings. Bodies and robots removed since the clone was made are restored with their old handles.
 @param clone world  clone of this world whose state is taken
+@effect edits
 > before = world:clone()
 > world:remove(flask)
 > world:become(before)
@@ -273,11 +328,13 @@ Copies everything from a clone of the world: state, bodies, robots and settings.
      R"(
 The present state of the world, bit-exactly.
 @return snapshot
+@effect reads
 > world:snapshot() ~= nil  --> true)"},
     {"restore", guarded<restore>, R"(
 Restores a snapshot of this world, of a clone of it, or of its original: bodies removed since then are
 restored, those added since then are removed.
 @param snapshot snapshot  result of world:snapshot
+@effect edits
 > before, moment = world:hash(), world:snapshot()
 > hand:open()
 > world:restore(moment)
@@ -287,7 +344,11 @@ Writes the world: as .xml or .mjcf a scene of MuJoCo, its meshes in a folder nex
 and as the key "start"; as .wld, or as .xml with the format "graspit", for GraspIt!; as a .lua script that stores everything. The old file
 is kept until the new one has been read back; a warning names everything that the format cannot represent.
 @param path string  .xml, .mjcf, .wld or .lua
-@param options? {format?: string, root?: string, confine?: string}  format: of an .xml "mjcf" or "graspit"; default: "mjcf", unless a robot carries another one, as a scene read again has one robot in place of the two; names of files below the root are written from there on; files of bodies and robots are read again, but for those that do not lie below `confine`
+@param options? table  how it is written
+@option format? "mjcf"|"graspit"  of an .xml file; by default mjcf, unless a robot carries another one, because such a scene has one robot when it is read
+@option root? string  folder from which names of files below it are written
+@option confine? string  folder outside of which no file is read or written, by default that of --confine
+@effect files
 > path = os.tmpname()
 > world:save(path .. ".lua")
 > clench.load(path .. ".lua"):hash() == world:hash()  --> true
@@ -299,6 +360,7 @@ is kept until the new one has been read back; a warning names everything that th
      R"(
 Fingerprint of the state: equal for bit-identical states.
 @return string  16 hexadecimal digits
+@effect reads
 > #world:hash()  --> 16)"},
 };
 

@@ -46,7 +46,6 @@ static std::optional<size_t> max_pairs(lua_State* L, int options_at) {
   Table options(L, options_at);
   const bool limited = options.has("max");
   const int max = options.integer("max", all);
-  if (limited && max < 0) fail("{}: max: expected a number >= 0, got {}", subject(L), max);
   options.done();
   if (!limited) return {};
   return static_cast<size_t>(max);
@@ -108,6 +107,7 @@ The first hit of a ray: `body`, `point`, `normal` out of its surface, `distance`
 @param direction vec3  of any length
 @param reach? number  how far it goes [m]; as far as there is something by default
 @return table?
+@effect reads
 > box = world:add_object(clench.shapes.box {1, 1, 1}, {pose = {xyz = {0, 0, 9}}})
 > hit = world:raycast({0, 0, 20}, {0, 0, -1})
 > hit.body == box, hit.distance, hit.normal  --> true, 10.5, (0, 0, 1)
@@ -116,14 +116,17 @@ The first hit of a ray: `body`, `point`, `normal` out of its surface, `distance`
 Does any enabled pair of bodies collide, in the world or of one entity with anything? The fastest test: it ends at the first pair that is found.
 @param entity? body|robot  body or robot to test against all others
 @return boolean
+@effect reads
 > world:collides(hand)  --> false
 > world:collides()  --> false)"},
     {"colliding", guarded<colliding>, R"(
 Pairs of bodies that collide, of the world, of one entity, or between two. A closed body inside another collides too.
 @param a? body|robot  one of two
 @param b? body|robot  the other
-@param options? {max?: integer}  max: largest number of pairs, the first ones in creation order; all by default
+@param options? table  how many
+@option max? integer [>= 0]  largest number of pairs, the first ones in creation order; all by default
 @return body[][]  pairs
+@effect reads
 > #world:colliding()  --> 0
 > #world:colliding(nil, nil, {max = 10})  --> 0)"},
     {"distance", guarded<measure_distance>, R"(
@@ -133,6 +136,7 @@ Minimum distance of two things, 0 if they collide, with the closest points in th
 @return number distance  [m]; infinite where one has no surface, and from a body to itself
 @return vec3 on_a
 @return vec3 on_b
+@effect reads
 > world:distance(hand, flask) <= world.contact_threshold  --> true)"},
     {"penetration", guarded<measure_penetration>, R"(
 Depth of the overlap: the largest distance from the surface of `b` of all points of `a` inside it, with that point in the
@@ -142,6 +146,7 @@ inside an open mesh: if that of `b` is open, points of `b` inside `a` count; if 
 @param b body|robot  the other
 @return number depth  [m]
 @return vec3? point  the deepest one; none where nothing overlaps
+@effect reads
 > box = world:add_object(clench.shapes.box {1, 1, 1}, {pose = {xyz = {0, 0, 9}}})
 > ball = world:add_object(clench.shapes.sphere {0.1}, {pose = {xyz = {0, 0, 9.55}}})
 > math.abs(world:penetration(ball, box) - 0.05) < 1e-4  --> true
@@ -152,6 +157,7 @@ as a sphere, outside its facets.
 @param a? body|robot  only contacts of this one
 @param b? body|robot  only contacts between both
 @return contact[]  on b; without arguments on the object of each pair
+@effect reads
 > world:contacts(hand, flask)[1].body == flask  --> true)"},
 };
 

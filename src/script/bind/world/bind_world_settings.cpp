@@ -100,10 +100,7 @@ static int set_friction(lua_State* L) {
   const double statics = options.number("static");
   Friction friction{.statics = statics,
                     .kinetic = options.number("kinetic", std::max(0.0, statics - 0.1))};
-  if (options.has("restitution")) {
-    friction.restitution = options.number("restitution");
-    check(restitution_rule, *friction.restitution, subject(L));
-  }
+  if (options.has("restitution")) friction.restitution = options.number("restitution");
   options.done();
   for (const std::string& name : {a, b}) tell_near_material(L, name);
   world_of(L).set_friction(a, b, friction);
@@ -243,6 +240,7 @@ Switches collision on or off: for the whole world, for one entity against everyt
 @param on boolean  true: collisions count; false: they are ignored
 @param a? body|robot  one of two; without both, the setting is for all
 @param b? body|robot  the other of two; without it, all pairs of the first
+@effect edits
 > world:set_collision(false, hand, flask)
 > #world:contacts(hand, flask)  --> 0)"},
     {"may_collide", guarded<may_collide>, R"(
@@ -251,6 +249,7 @@ switched off, and for neighbors of a robot.
 @param a? body|robot  one of two; without both, any pair counts
 @param b? body|robot  the other of two; without it, any body
 @return boolean
+@effect reads
 > world:may_collide(hand, flask)  --> true
 > world:set_collision(false, hand, flask)
 > world:may_collide(hand, flask), world:may_collide()  --> false, true)"},
@@ -259,7 +258,11 @@ Sets the collision bits of bodies, like `contype` and `conaffinity` of MuJoCo: t
 affinity of the other share a bit. Fixed bodies do not collide with each other. A later `world:set_collision(true, a, b)` makes a pair
 collide with any bits.
 @param entity body|robot  body or robot to set
-@param bits? {type?: integer, affinity?: integer, fixed?: boolean}  type and affinity: 1 by default; fixed: is it fixed to the world? false by default
+@param bits? table  the bits
+@option type? integer = 1  bits of this kind of body
+@option affinity? integer = 1  bits of the kinds that it collides with
+@option fixed? boolean = false  true: it is fixed to the world
+@effect edits
 > world:set_collision_bits(flask, {type = 2, affinity = 2})
 > world:set_collision_bits(hand, {type = 4})
 > #world:contacts(hand, flask)  --> 0)"},
@@ -267,7 +270,11 @@ collide with any bits.
 Sets the Coulomb coefficients of a pair of materials; new names become materials.
 @param a string  name of a material
 @param b string  name of the other material, or of the same
-@param friction number|{static: number, kinetic?: number, restitution?: number}  a number is both coefficients; kinetic: static - 0.1 unless given; restitution: speed after a blow by that before, 0 to 1, in place of what the bodies say
+@param friction number|table  one coefficient for both, or a table of these options
+@option static number [0 to 1e6]  static coefficient
+@option kinetic? number [0 to 1e6]  kinetic coefficient, by default static - 0.1, at least 0
+@option restitution? number [0 to 1]  speed after an impact by that before, instead of that of the bodies
+@effect edits
 > world:set_friction("cork", "wood", {static = 0.7})
 > world:set_friction("cork", "cork", 0.6)
 > world:friction("wood", "cork")  --> 0.7, 0.6
@@ -279,11 +286,13 @@ The coefficients of a pair of materials.
 @return number static
 @return number kinetic
 @return number? restitution  where the pair has one of its own
+@effect reads
 > world:friction("rubber", "stone")  --> 1.5, 1.4)"},
     {"add_keyframe", guarded<add_keyframe>, R"(
 Stores the present state, or one given by a list, under a name. It replaces a keyframe of the same name.
 @param name string  name of the keyframe
 @param states? table[]  {body = body, pose = pose} and {robot = robot, pose = pose?, dofs = number[], or some by name}; what is not listed stays where it is; DOFs that are not named get the values that they have now
+@effect edits
 > world:add_keyframe "closed"
 > world:add_keyframe("away", {{body = flask, pose = {xyz = {9, 0, 0}}}})
 > world.keyframes[2]  --> away
@@ -296,6 +305,7 @@ Stores the present state, or one given by a list, under a name. It replaces a ke
 Restores the poses and postures of a keyframe, without collision checks. Removed bodies stay removed, and a
 robot that is carried stays on its carrier.
 @param name string  name of the keyframe
+@effect edits
 > world:add_keyframe "closed"
 > hand:open()
 > world:set_keyframe "closed"

@@ -1,0 +1,4 @@
+function moveToContacts()
+%MOVETOCONTACTS  moveToContacts()   Moves the current hand along its approach direction until the first contact, at most 30 mm.
+  graspitServer('send', 'moveToContacts');
+end

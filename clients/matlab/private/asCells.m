@@ -1,0 +1,8 @@
+function cells = asCells(items, values, name)
+% One row of numbers per item.
+  if ~iscell(values), values = {values}; end
+  if ischar(items) || numel(values) ~= numel(items)
+    error('clench:InvalidParams', '%s: expected a vector per robot, by index', name);
+  end
+  cells = values;
+end

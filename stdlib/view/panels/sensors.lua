@@ -1,0 +1,88 @@
+--- Devices: their states and readings, and buttons of the commands that connect them, move hands by them and calibrate a glove.
+local dialog = require "clench.view.dialog"
+local units = require "clench.view.units"
+
+local gray, orange = {0.5, 0.5, 0.5}, {0.84, 0.37, 0}
+
+local function button(view, ui, label, name)
+  local command = view.session.commands["sensors." .. name]
+  local can, reason = true, nil
+  if command.enabled then can, reason = command.enabled(view.session) end
+  ui:disabled(not can, function(ui)
+    if ui:button(label .. "##" .. name) then dialog.open(view, command) end
+  end)
+  ui:tooltip(("%s%s\nsession:run(%q)"):format(command.label, can and "" or ": " .. reason, command.name))
+end
+
+-- texts of readings, in a few lines
+local shown = {
+  glove = function(_, raw)
+    local lines = {}
+    for i = 1, #raw, 8 do lines[#lines + 1] = table.concat(raw, " ", i, math.min(i + 7, #raw)) end
+    return table.concat(lines, "\n")
+  end,
+  tracker = function(view, pose)
+    local p, angles = pose.position, pose.rpy
+    return ("%s, %s, %s\n%s, %s, %s"):format(units.text(view, p.x, "m"), units.text(view, p.y, "m"), units.text(view, p.z, "m"), units.text(view, angles[1], "rad"),
+                                             units.text(view, angles[2], "rad"), units.text(view, angles[3], "rad"))
+  end,
+  hand = function(view, values)
+    local texts = {}
+    for i, value in ipairs(values) do texts[i] = units.text(view, value, "rad") end
+    return table.concat(texts, ", ")
+  end,
+}
+
+local function draw_device(view, ui, title, kind)
+  local sensor = view.session.sensors[kind]
+  ui:spacing()
+  ui:text(title)
+  ui:same_line()
+  if not sensor then return button(view, ui, "Connect…", "connect_" .. kind) end
+  if ui:button("Disconnect##" .. kind) then view:run("sensors.disconnect", {device = kind}) end
+  ui:text(("%s, %s"):format(sensor.state, sensor.path), {color = gray})
+  if sensor.problem then ui:text(sensor.problem, {color = orange, wrap = true}) end
+  if sensor.reading then ui:text(shown[kind](view, sensor.reading)) end
+end
+
+local function draw_motion(view, ui)
+  ui:spacing()
+  button(view, ui, "Move Hand", "apply")
+  ui:same_line()
+  button(view, ui, view.session.following and "Stop Following" or "Follow", "follow")
+  button(view, ui, "Tracker Mode…", "tracker_mode")
+  ui:same_line()
+  ui:text(view.session.sensors.frame and "relative" or "absolute", {color = gray})
+end
+
+local function draw_calibration(view, ui)
+  local state = view.session.sensors
+  ui:spacing()
+  ui:text(("%d postures, %s"):format(#state.postures, state.calibration and "calibrated" or "not calibrated"), {color = gray})
+  button(view, ui, "Record…", "record_posture")
+  ui:same_line()
+  button(view, ui, "Clear", "clear_postures")
+  ui:same_line()
+  button(view, ui, "Calibrate…", "calibrate")
+  button(view, ui, "Load…", "load_calibration")
+  ui:same_line()
+  button(view, ui, "Save…", "save_calibration")
+  for d, row in pairs(state.calibration and state.calibration.report or {}) do
+    ui:text(("DOF %d: within %s"):format(d, units.text(view, row.max, "rad")))
+  end
+end
+
+local function draw(ui, view)
+  draw_device(view, ui, "Glove", "glove")
+  draw_calibration(view, ui)
+  draw_device(view, ui, "Tracker", "tracker")
+  draw_motion(view, ui)
+  draw_device(view, ui, "Barrett hand", "hand")
+  button(view, ui, "From Real Hand", "pull")
+  ui:same_line()
+  button(view, ui, "To Real Hand…", "push")
+  ui:same_line()
+  button(view, ui, "Stop", "stop")
+end
+
+return {name = "Sensors", place = "right", tab = true, tall = true, draw = draw}

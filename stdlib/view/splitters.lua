@@ -1,0 +1,60 @@
+--- The edges between the picture and the panels around it, which are dragged to change the sizes of the panels.
+local splitters = {}
+
+splitters.default = {left = 264, right = 264, bottom = 190}  -- widths, and a height [pixels]
+splitters.least = 120  -- of each [pixels]
+
+local reach = 5  -- of an edge into the picture [pixels]
+local least_picture = 160  -- width and height that stay between the panels [pixels]
+
+--- A size of the panels, as far as the window has room for it.
+---@param name "left"|"right"|"bottom"
+---@return number size  [pixels]
+function splitters.size(view, name)
+  local width, height = view.ui.size[1], view.ui.size[2]
+  local most = name == "bottom" and height - least_picture - 120 or (width - least_picture) / 2
+  return math.max(splitters.least, math.min(view.sizes[name], most))
+end
+
+-- the direction in which the mouse makes the panels larger: of each edge its axis and sign
+local directions = {left = {"x", 1}, right = {"x", -1}, bottom = {"y", -1}}
+
+-- the name of the edge under the mouse
+local function edge_at(view, mouse)
+  for name, edge in pairs(view.edges) do
+    local axis, sign = directions[name][1], directions[name][2]
+    local beside, along = sign * (mouse[axis] - edge.at), mouse[axis == "x" and "y" or "x"]
+    if beside >= 0 and beside < reach and along >= edge.from and along < edge.to then return name end
+  end
+end
+
+--- Applies the mouse of this frame to the edges, which the layout has stored in view.edges.
+---@return boolean taken  is an edge being dragged?
+function splitters.update(view)
+  local mouse = view.ui.mouse
+  local held = view.splitting
+  if held then
+    local axis, sign = directions[held.name][1], directions[held.name][2]
+    view.sizes[held.name] = math.floor(held.size + sign * (mouse[axis] - held.start) + 0.5)
+    view.sizes[held.name] = splitters.size(view, held.name)
+    if not mouse.left.down then view.splitting = nil end
+    return true
+  end
+  view.edge = not (view.press or view.ui.wants_mouse) and view.panels_visible and edge_at(view, mouse) or nil
+  if not (view.edge and mouse.left.clicked) then return false end
+  view.splitting = {name = view.edge, size = splitters.size(view, view.edge), start = mouse[directions[view.edge][1]]}
+  return true
+end
+
+--- Marks the edge under the mouse.
+function splitters.draw(view, ui)
+  local name = view.splitting and view.splitting.name or view.edge
+  local edge = name and view.edges[name]
+  if not edge then return end
+  local axis, sign = directions[name][1], directions[name][2]
+  local at = edge.at + sign * 1.5
+  local ends = axis == "x" and {at, edge.from, at, edge.to} or {edge.from, at, edge.to, at}
+  ui:line(ends, {color = {0.2, 0.45, 0.8, 0.9}, width = 3})
+end
+
+return splitters

@@ -1,0 +1,90 @@
+-- A server that several clients share: batches, snapshots and limits that keep them from waiting for each other.
+local test, clench = require "test", require "clench"
+local connect = dofile "tests/lua/rpc_client.lua"
+local json, loop = clench.json, clench.loop
+
+local function serve()
+  local world = clench.load("worlds/barrett_mug.wld", {root = "."})
+  return clench.control.server {world = world, port = 0}, world
+end
+
+local function code(response) return response.error and response.error.code end
+
+test("others are served between the requests of a batch, and its client's next request after it", function(t)
+  local server <close> = serve()
+  local client, other = connect(server), connect(server)
+  local order = {}
+  local batch = {}
+  for i = 1, 300 do batch[i] = {jsonrpc = "2.0", id = i, method = "world.list"} end
+  client.port:write(json.encode(batch) .. "\n" .. '{"jsonrpc":"2.0","id":"next","method":"world.hash"}\n')
+  loop.spawn(function()
+    local responses = client.receive()
+    t.equal(#responses, 300)
+    for i, response in ipairs(responses) do t.equal(response.id, i) end
+    order[#order + 1] = "batch"
+    t.equal(client.receive().id, "next")
+    order[#order + 1] = "next"
+  end)
+  repeat
+    other.get "world.hash"
+    order[#order + 1] = "other"
+  until order[#order - 1] == "next"
+  t.ok(order[1] == "other" and order[5] == "other", table.concat(order, " "))
+  local at = {}
+  for i, word in ipairs(order) do at[word] = at[word] or i end
+  t.ok(at.batch < at.next)
+  -- a client that ends its side is answered all the same
+  client.port:write(json.encode(batch) .. "\n")
+  client.port:close()
+  t.ok(other.get "world.hash")
+end)
+
+test("one request reads at most 1000 fields", function(t)
+  local server <close> = serve()
+  local client = connect(server)
+  local function names(count)
+    local list = {}
+    for i = 1, count do list[i] = "time" end
+    return list
+  end
+  t.equal(client.get("get", {fields = names(1000)}).time, 0)
+  t.equal(#client.get("read", {items = {{fields = names(500)}, {fields = names(500)}}}), 2)
+  for _, case in ipairs {{"get", {fields = names(1001)}}, {"read", {items = {{fields = names(500)}, {fields = names(501)}}}}} do
+    local response = client.call(table.unpack(case))
+    t.equal(code(response), -32002)
+    t.equal(response.error.message, "at most 1000 fields are read in one request, got 1001")
+  end
+  local empty = {}
+  for i = 1, 1001 do empty[i] = {fields = {}} end
+  t.equal(code(client.call("read", {items = empty})), -32002)
+end)
+
+test("clients with the same rate share snapshots, and each has its own until it ends it", function(t)
+  local server <close>, world = serve()
+  local a, b, c = connect(server), connect(server), connect(server)
+  b.get("subscribe", {event = "changed"})
+  for _, client in ipairs {a, b} do client.subscription = client.get("subscribe_state", {rate = 200}).subscription end
+  c.get("subscribe_state", {rate = 200, poses = true})
+  local function next_state(client)
+    world.objects[1].pose = world.objects[1].pose * clench.pose {xyz = {0, 0, 0.01}}
+    local message
+    repeat message = client.receive() until message.method == "snapshot" and message.params.value.objects[1].pose.xyz[3] == world.objects[1].pose.position.z
+    return message.params
+  end
+  t.equal(next_state(a).subscription, 1)
+  t.equal(next_state(b).subscription, 2)
+  t.equal(#next_state(c).value.poses, #world.bodies)
+  t.equal(next_state(b).value.poses, nil)
+  a.get("unsubscribe", {subscription = a.subscription})
+  next_state(b)
+  a.notes = {}
+  a.get "world.hash"
+  next_state(b)
+  a.get "world.hash"
+  t.equal(#a.notes, 0)
+  b.port:close()
+  c.get("unsubscribe", {subscription = 1})
+  local last = loop.time() + 10
+  while next(server.snapshot_groups) and loop.time() < last do loop.sleep(0.01) end
+  t.equal(next(server.snapshot_groups), nil)
+end)
