@@ -190,7 +190,9 @@ TEST_CASE("damping, friction and armature of joints and actuators are kept") {
   CHECK(robot.actuators[4].gain_slopes[1] < 0);
   // one warning per kind
   CHECK(std::ranges::count_if(told.warnings, [](const std::string& s) {
-          return s.find("<damper>: motors of a run do not follow its gain") != std::string::npos;
+          return s.find(
+                     "<damper>: its gain, which depends on length or velocity, affects efforts") !=
+                 std::string::npos;
         }) == 1);
 }
 
@@ -453,11 +455,11 @@ TEST_CASE("settings of MuJoCo's solver are reported unless they are those that a
   CHECK(ours.world.contact_threshold == 0.0002);
   // stiffness for another time step
   const auto other = told("0.001", stiff, "cone='pyramidal' impratio='1' integrator='RK4'");
-  CHECK(other.warned("not used: margin, solimp, solref"));
-  CHECK(other.warned("not used: cone, impratio, integrator"));
+  CHECK(other.warned("solver are not used: margin, solimp, solref"));
+  CHECK(other.warned("solver are not used: cone, impratio, integrator"));
   CHECK(!other.world.contact_threshold);
   CHECK(told("0.002", "margin='1' solref='0.008 1' solimp='0.95 0.99 0.0001'", "")
-            .warned("not used: margin, solimp, solref"));
+            .warned("solver are not used: margin, solimp, solref"));
 }
 
 TEST_CASE("a scene's time step is the world's") {

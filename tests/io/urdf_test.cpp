@@ -99,7 +99,7 @@ TEST_CASE("an inertia is turned into the frame of its link") {
 TEST_CASE("links without a mass weigh what water of their volume does, which is told") {
   const ToldRobot gripper(gripper_file, with_package());
   CHECK(gripper.link("right_finger").body.mass == doctest::Approx(1000 * 0.008 * 0.02 * 0.06));
-  CHECK(gripper.noted("weigh what their volume of water does: 'left_finger', 'right_finger'"));
+  CHECK(gripper.noted("get the mass of their volume of water: 'left_finger', 'right_finger'"));
 }
 
 TEST_CASE("elements that are not used are told once for each kind") {

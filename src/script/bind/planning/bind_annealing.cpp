@@ -249,7 +249,7 @@ Runs several chains at once, each in a separate world; their results do not depe
 > b = clench.annealing {world = world:clone(), hand = hand, object = flask, energy = energy, seed = 1}
 > clench.run_annealings({a, b}, {50, 50}, 2)  --> {50, 50}
 > a.energy == b.energy  --> true
-> clench.run_annealings({a, a}, {5, 5})  --> error: need a world each)"},
+> clench.run_annealings({a, a}, {5, 5})  --> error: need separate worlds)"},
 };
 
 static const Entry annealing_fields[] = {

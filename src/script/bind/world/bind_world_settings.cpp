@@ -218,7 +218,7 @@ Set it to such a table, or to one with `pose` (the camera looks along -z, y up) 
 > clench.world().camera  --> nil
 > world.camera = {eye = {1, 0, 0.5}, target = {0, 0, 0}, up = {0, 0, 1}}
 > world.camera.eye  --> (1, 0, 0.5)
-> world.camera = {eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, 1}}  --> error: up not along the view)",
+> world.camera = {eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, 1}}  --> error: up in another direction than the view)",
      guarded<set_camera>},
     {"gravity", getter<[](const WorldHandle& x) { return x.world->gravity(); }>, R"(
 Gravitational acceleration of joints and objects, in the world frame.
