@@ -387,7 +387,7 @@ TEST_CASE("a scene's bits are kept, and excluded pairs are listed") {
   CHECK(fixed == 2);
   CHECK(other == 1);
   CHECK(told.noted("4 pairs of bodies never collide because of contype and conaffinity"));
-  CHECK(told.warned("exclude: no body 'no' is read; this is not used"));
+  CHECK(told.warned("exclude: no body 'no' was read; the exclusion is ignored"));
   CHECK(told.warned("pairs of which a geom is not read are not used: 'x' and 'y'"));
 }
 

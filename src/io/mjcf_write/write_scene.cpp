@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "clench/base/text.h"
-#include "clench/io/mjcf/solver_settings.h"
+#include "clench/io/mjcf/document/solver_settings.h"
 #include "clench/io/mjcf_write/written_actuators.h"
 #include "clench/io/mjcf_write/written_carriage.h"
 #include "clench/io/mjcf_write/written_friction.h"
