@@ -1,5 +1,5 @@
 --- A client of a server: its requests are received and wait to be served; replies are sent without waiting, several at once if further requests wait. Its field `serve`, a function of server and client,
---- handles one line, request or frame that has arrived, and returns false if there is none; its field `wrap` makes a message of a reply.
+--- handles one line, request or frame that has arrived, and returns false if there is none; its field `wrap` turns a reply into a message.
 local class = require "clench.class"
 local loop = clench.loop
 

@@ -128,7 +128,7 @@ local function remove(self, client)
   if self.on_close then self.on_close(client) end
 end
 
--- a client that has not said in time which protocol it speaks, or hello
+-- a client that has not identified itself in time, by the text protocol or by `hello`
 local function find_silent(self)
   for _, client in ipairs(self.clients) do
     local is_known = client.is_authorized or client.protocol == text_protocol or client.is_finishing
@@ -136,7 +136,7 @@ local function find_silent(self)
   end
 end
 
--- serve: of the client's protocol
+-- serve: function that serves a client of this protocol
 local function add(self, port, serve)
   local silent = #self.clients >= self.max_clients and find_silent(self)
   if silent then silent:close "another client took its place" end
@@ -234,7 +234,7 @@ local function read_folder(o)
   return folder
 end
 
--- the port of the live page, and what it needs
+-- port and settings of the live page
 local function read_http(o, server, host)
   local http, control, timeout = o:get "http", o:get "control", o:get "http_timeout"
   if http == nil then return nil end

@@ -44,7 +44,7 @@ local function count(session)
   return (glove and glove.count or 0) + (tracker and tracker.count or 0)
 end
 
--- one turn: an error ends the following and becomes a diagnostic
+-- one turn of `follow`; an error ends it, and becomes a diagnostic
 local function turn(session, following)
   local now = count(session)
   if now == following.count then return end
@@ -69,7 +69,7 @@ function sensed.follow(session)
   end)
 end
 
--- a mirror of the current hand, which a driver serves whose values are as many
+-- a mirror of the current hand; the device must have as many values as the hand has DOFs
 local function mirror_of(session, device, max_speed)
   local given, expected = #sensors.reading(session, "hand"), #session.hand.dofs
   if given ~= expected then raise(("session: the real hand has %d DOFs, and %s has %d"):format(given, session.hand.name, expected)) end
@@ -87,7 +87,7 @@ end
 function sensed.push(session, max_speed)
   sensors.reading(session, "hand")
   local sensor = session.sensors.hand
-  if sensor.task then raise "session: the real hand moves already" end
+  if sensor.task then raise "session: the real hand is already moving" end
   local mirror = mirror_of(session, sensor.device, max_speed)
   sensor.task = function() return mirror:push() end
 end

@@ -96,7 +96,7 @@ local function draw_questions(view, ui, state)
     local result = ask(view, state, "preload", {loads = loads_of(view, state), locked = state.locked or nil})
     if result and result.torques then state.torques = {table.unpack(result.torques)} end
   end
-  ui:tooltip "The smallest torques that hold the object without a load, and under the load times the factor beside, without being adjusted"
+  ui:tooltip "The smallest torques that hold the object without a load, and under the load times the factor on the right, without being adjusted"
   ui:same_line()
   ui:width(46)
   number(view, ui, "x load", state, "factor", {speed = 0.05, min = 0.01, max = 1000, format = "%.3g"})
