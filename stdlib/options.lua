@@ -77,7 +77,7 @@ function Options:get(name, default)
   end
   local fault = fitting.fault(option, value, self.largest)
   if fault then self:expected(name, fault, value) end
-  return option.type == "integer" and math.tointeger(value) or value
+  return (option.type == "integer" or option.type == "index") and math.tointeger(value) or value
 end
 
 --- The options in the table of that name, read in the same way; no options if it is not a table.

@@ -10,8 +10,11 @@ local report = {}
 
 -- the options without those that the command line leaves empty
 local function checked(given)
-  local options = {}
-  for key, value in pairs(given) do options[key] = value ~= "" and value or nil end
+  local options = given
+  if type(given) == "table" then
+    options = {}
+    for key, value in pairs(given) do options[key] = value ~= "" and value or nil end
+  end
   local read = read_options("clench.report.of", options)
   for _, option in ipairs(read.fields) do options[option.name] = read:checked(option.name) end
   read:done()

@@ -14,7 +14,7 @@ classdef ClenchClient < handle
 %   clench:ConnectionLost, clench:Timeout.
 
   properties
-    timeout = Inf  % for each answer [s]
+    timeout = Inf  % for each answer [s]; MATLAB's tcpclient does not notice before that a server has gone
   end
   properties (SetAccess = private)
     version = ''   % of the server

@@ -117,6 +117,10 @@ classdef ClenchConnection < handle
         chunk = zeros(1, 0, 'uint8');
         try
           count = self.port.NumBytesAvailable;
+          if count == 0 && isOctave()  % waits for one byte, and fails if the server has closed the connection
+            self.port.Timeout = 0.01;
+            count = 1;
+          end
           if count > 0, chunk = reshape(uint8(read(self.port, count)), 1, []); end
         catch problem
           lose(self, problem.message);
@@ -142,8 +146,12 @@ classdef ClenchConnection < handle
   end
 end
 
+function is = isOctave()
+  is = exist('OCTAVE_VERSION', 'builtin') ~= 0;
+end
+
 function has = hasTcpclient()
-  if exist('OCTAVE_VERSION', 'builtin')
+  if isOctave()
     try
       pkg('load', 'instrument-control');
     catch

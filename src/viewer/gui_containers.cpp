@@ -1,5 +1,8 @@
 #include <imgui_internal.h>
 
+#include <algorithm>
+#include <cfloat>
+
 #include "clench/viewer/gui_state.h"
 
 namespace clench {
@@ -78,6 +81,11 @@ void Gui::menu_bar(Body body) {
 }
 
 void Gui::menu(const std::string& label, bool enabled, Body body) {
+  // a menu that is higher than the space below its title is scrolled: placed over the title, it
+  // would take the release of the button that opened it as a click on an entry
+  const float below = ImGui::GetCursorScreenPos().y + ImGui::GetFrameHeight();
+  const float space = std::max(ImGui::GetIO().DisplaySize.y - below - 8, 60.0F);
+  ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(FLT_MAX, space));
   const bool open = ImGui::BeginMenu(label.c_str(), enabled);
   if (open) {
     state_->windows.push_back(visible_label(label));

@@ -97,8 +97,8 @@ return function(hooks, world, seconds, stepping, step, events)
   if hooks.runs then raise "world:run: the world is already running: functions called during a run cannot run it" end
   hooks.runs = true
   local running <close> = setmetatable({}, {__close = function()
-    hooks.runs = nil
     for _, name in ipairs {"controllers", "tasks", "listeners", "observers"} do clear(hooks[name]) end
+    hooks.runs = nil
   end})
   calls.observers(world, hooks.observers)
   local last = world.time + seconds  -- an observer may have restored another time

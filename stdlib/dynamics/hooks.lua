@@ -12,9 +12,20 @@ local Handle = class "handle"
 
 function Handle:__tostring() return ("%s (%s)"):format(self.name, self.status) end
 
+-- takes it out of its list, with what its function holds
+local function release(self)
+  local list = self.set[self.list]
+  for i, handle in ipairs(list) do
+    if handle == self then table.remove(list, i) break end
+  end
+  if self.thread then coroutine.close(self.thread) end
+end
+
 --- Ends it, even while it runs.
 function Handle:remove()
-  if self.status == "waiting" then self.status = "removed" end
+  if self.status ~= "waiting" then return end
+  self.status = "removed"
+  if not self.set.runs then release(self) end  -- otherwise the run does
 end
 
 local function check_function(subject, fn)
@@ -22,7 +33,7 @@ local function check_function(subject, fn)
 end
 
 local function add(set, list, handle)
-  handle.status = "waiting"
+  handle.status, handle.set, handle.list = "waiting", set, list
   set[list] = set[list] or {}
   table.insert(set[list], setmetatable(handle, Handle))
   return handle

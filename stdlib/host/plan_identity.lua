@@ -1,13 +1,13 @@
 --- Identifies a search of `clench plan` by its scene and the options on which its grasps depend.
 local fingerprint = require "clench.fingerprint"
 local in_utf8 = require "clench.in_utf8"
+local plan_options = require "clench.host.plan_options"
 local identity = {}
 
 -- grasps do not depend on these
 local about_the_run = {"count", "format", "frame", "lines", "o", "overwrite", "quality", "report", "resume", "seconds", "sheet", "size", "table", "threads"}
 -- covered by the fingerprint of the scene; compared only for the message
 local about_the_scene = {"hand", "object", "obstacle", "pose", "obstacle-pose", "mass", "material", "friction", "close", "approach"}
-local defaults = {contacts = "any", ["force-ratio"] = "10", seed = "1"}
 
 local function set_of(names)
   local set = {}
@@ -30,7 +30,21 @@ end
 -- equal text for equal numbers, such as "1e1" and "10"
 local function plain(value)
   local number = tonumber(value)
-  return number and ("%.17g"):format(number) or value
+  if not number then return value end
+  local short = ("%.15g"):format(number)
+  return tonumber(short) == number and short or ("%.17g"):format(number)
+end
+
+-- all options on which grasps depend: the given ones, and the defaults of others
+local function complete(given)
+  local options = {}
+  for name, value in pairs(plan_options.defaults()) do
+    if not is_about_the_run[name] then options[name] = plain(value) end
+  end
+  for name, value in pairs(given) do
+    if not is_about_the_run[name] and not is_about_the_scene[name] then options[name] = plain(value) end
+  end
+  return options
 end
 
 local joint_fields = {"name", "kind", "dof", "axis", "ratio", "min", "max", "endless", "spring", "rest", "damping", "friction", "armature", "effort_range"}
@@ -76,17 +90,14 @@ end
 ---@param hand robot
 ---@return {scene: string, named: table, options: table}
 function identity.of(given, world, hand)
-  local named, options = {}, {}
+  local named = {}
   for name, value in pairs(given) do
     if is_about_the_scene[name] then
       local text = type(value) == "table" and table.concat(value, " ") or value
       if text ~= "" then named[name] = text end
-    elseif not is_about_the_run[name] then
-      options[name] = plain(value)
     end
   end
-  for name, value in pairs(defaults) do options[name] = options[name] or value end
-  return in_utf8 {scene = world:hash() .. fingerprint(text_of(mechanics_of(hand))), named = named, options = options}
+  return in_utf8 {scene = world:hash() .. fingerprint(text_of(mechanics_of(hand))), named = named, options = complete(given)}
 end
 
 local function sorted_keys(a, b)
@@ -125,7 +136,7 @@ local function table_at(value, key) return type(value[key]) == "table" and value
 ---@param here table  of this search
 ---@return string?
 function identity.difference(there, here)
-  local options = table_at(there, "options")
+  local options = complete(table_at(there, "options"))
   local by_option = first_difference(options, here.options, sorted_keys(options, here.options))
   if there.scene == here.scene then return by_option end
   return first_difference(table_at(there, "named"), here.named, about_the_scene) or by_option

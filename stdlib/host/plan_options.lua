@@ -51,6 +51,17 @@ function plan_options.list()
   return table.unpack(all)
 end
 
+--- Defaults of the planner, as they would be typed, by name.
+---@return table<string, string>
+function plan_options.defaults()
+  local defaults = {}
+  for _, path in ipairs(offered) do
+    local option, name = option_of(path)
+    if option.default ~= nil then defaults[name] = tostring(option.default) end
+  end
+  return defaults
+end
+
 -- value of an option's text: a number, or else the text itself
 local function value_of(option, text)
   if words_of(option)[1] or not text:find "^[+-]?[%d.]+[eE]?[+-]?%d*$" then return text end

@@ -14,7 +14,7 @@ local closing = require "clench.plan.closing"
 ---@option seed? integer = 1  seed of the random numbers
 ---@like clench.annealing  schedule, best, position, posture, semi_axes, limits, jumps, values, targets, fixed, start, variables, collisions,
 ---  max_tries
----@option contacts? "fingertip"|"power"|"any"  fingertip: only the last links of fingers touch; power: the palm touches as well
+---@option contacts? "fingertip"|"power"|"any" = "any"  fingertip: only the last links of fingers touch; power: the palm touches as well
 ---@option touch? table  links that touch, instead of contacts
 ---@option touch.must? table  names of links, or lists of names of which at least one must touch
 ---@option touch.may? string[]  names of links, all by default

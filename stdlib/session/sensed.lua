@@ -44,10 +44,10 @@ local function count(session)
   return (glove and glove.count or 0) + (tracker and tracker.count or 0)
 end
 
--- one turn of `follow`; an error ends it, and becomes a diagnostic
+-- one turn of `follow`; an error, such as a lost device, ends it, and becomes a diagnostic
 local function turn(session, following)
   local now = count(session)
-  if now == following.count then return end
+  if now == following.count and sensed.can_apply(session) then return end
   following.count = now
   local ok, problem = pcall(sensed.apply, session)
   if ok then return session:emit("changed", {following = true}) end
@@ -82,14 +82,30 @@ function sensed.pull(session)
   return mirror_of(session, {read = function() return reading end, move = function() end}):pull()
 end
 
+-- Has the simulated hand moved since the real one was there? Drags and playbacks count once they have ended.
+local function has_moved(session, hand, before)
+  if session.gesture then return false end
+  for d, value in ipairs(hand.dofs) do
+    if value ~= before[d] then return true end
+  end
+  return false
+end
+
 --- Moves the real hand to where the simulated one is, while `clench.loop` runs.
 ---@param max_speed number [rad/s]
-function sensed.push(session, max_speed)
+---@param continuous boolean  true: it follows until it is stopped
+function sensed.push(session, max_speed, continuous)
   sensors.reading(session, "hand")
-  local sensor = session.sensors.hand
+  local sensor, hand = session.sensors.hand, session.hand
   if sensor.task then raise "session: the real hand is already moving" end
   local mirror = mirror_of(session, sensor.device, max_speed)
-  sensor.task = function() return mirror:push() end
+  local arrived  -- DOFs at which the real hand is
+  sensor.task = function()
+    if arrived and not has_moved(session, hand, arrived) then return false end
+    local goal = hand.dofs
+    arrived = mirror:push() and goal or nil
+    return arrived ~= nil and not continuous
+  end
 end
 
 --- Stops the real hand.

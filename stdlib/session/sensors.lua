@@ -5,14 +5,16 @@ local is_stopped = require "clench.is_stopped"
 local raise = require "clench.raise"
 local sensors = {}
 
+local timeout = 1  -- for an answer; the loop may be late while a frame is drawn [s]
+
 -- baud: of the line; open(port): returns the driver; prepare(driver): before the first reading; read(driver); period: between readings [s]
 local kinds = {
-  glove = {baud = 38400, period = 0.02, open = function(port) return clench.devices.cyberglove {port = port} end,
+  glove = {baud = 38400, period = 0.02, open = function(port) return clench.devices.cyberglove {port = port, timeout = timeout} end,
            prepare = function(glove) if not glove:is_ready() then raise "the glove is not ready" end end,
            read = function(glove) return glove:read() end},
-  tracker = {baud = 115200, period = 0.02, open = function(port) return clench.devices.flock {port = port} end,
+  tracker = {baud = 115200, period = 0.02, open = function(port) return clench.devices.flock {port = port, timeout = timeout} end,
              prepare = function() end, read = function(flock) return flock:read()[1] end},
-  hand = {baud = 9600, period = 0.1, open = function(port) return clench.devices.barrett {port = port} end,
+  hand = {baud = 9600, period = 0.1, open = function(port) return clench.devices.barrett {port = port, timeout = timeout} end,
           prepare = function(hand) hand:initialize() end, read = function(hand) return hand:read() end},
 }
 local report_interval = 0.1  -- between two events of readings [s]

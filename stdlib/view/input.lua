@@ -80,12 +80,25 @@ function input.click_label(view, label, kind)
   input.click(view, item.x + math.min(item.width, 24) / 2, item.y + item.height / 2)
 end
 
+-- labels of entries may contain a slash
+local function is_shown(view, label, kind)
+  for _, item in ipairs(view.ui.items) do
+    if item.label == label and item.kind == kind then return true end
+  end
+  return false
+end
+
 --- Chooses the entry of a menu: "Grasp/Auto Grasp".
 function input.menu(view, path)
   settle(view)
-  local parts = {}
-  for part in path:gmatch "[^/]+" do parts[#parts + 1] = part end
-  for i, part in ipairs(parts) do input.click_label(view, part, i < #parts and "menu" or "menu item") end
+  local rest = path
+  while not is_shown(view, rest, "menu item") do
+    local part, others = rest:match "^([^/]+)/(.+)$"
+    if not part then break end
+    input.click_label(view, part, "menu")
+    rest = others
+  end
+  input.click_label(view, rest, "menu item")
 end
 
 return input

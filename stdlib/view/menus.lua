@@ -25,7 +25,7 @@ local own = {
     end)
     ui:separator()
     if ui:menu_item("Save View…") then
-      view.ask = {title = "Save View", text = "picture.png", done = function(path) view:screenshot {path = with_ending(path, ".png"), panels = false} end}
+      view.ask = {title = "Save View", text = "view.png", done = function(path) view:screenshot {path = with_ending(path, ".png"), panels = false} end}
     end
     if ui:menu_item("Save Session as Script…") then view.ask = {title = "Save Session as Script", text = "session.lua", done = function(path) view:save_script(path) end} end
     if ui:menu_item("Exit", {shortcut = bindings.shown(view, "exit")}) then view.wants_exit = true end

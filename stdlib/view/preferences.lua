@@ -82,6 +82,7 @@ local function apply(view, said)
   if type(said.dark) == "boolean" and not view.has_theme then view:set_theme(said.dark) end
   local units = type(said.units) == "table" and said.units or {}
   if units.length == "m" or units.length == "mm" then view.units.length = units.length end
+  if units.angle == "rad" or units.angle == "deg" then view.units.angle = units.angle end
   for _, name in ipairs(texts_of(said.hidden)) do view.hidden[name] = true end
   view.recent = texts_of(said.recent)
   apply_arrangement(view, said)

@@ -214,7 +214,7 @@ function Viewer:menu(path) input.menu(self, path) end
 function Viewer:key(shortcut) input.key(self, shortcut) end
 function Viewer:type(text) input.type(self, text) end
 function Viewer:click(x, y) input.click(self, x, y) end
-function Viewer:click_label(label) input.click_label(self, label) end
+function Viewer:click_label(label, kind) input.click_label(self, label, kind) end
 function Viewer:drag(x, y, to_x, to_y, options) input.drag(self, x, y, to_x, to_y, options) end
 
 --- Stores unsaved work at once, as when a program ends early.

@@ -79,6 +79,16 @@ TEST_CASE("an existing list is replaced or continued only on request") {
   refused(command + " --seed 2 --resume",
           "--resume: " + out + " is of another search: expected --seed");
   refused(command + " --contacts power", "expected --contacts 'power', got 'any'");
+  refused(command + " --distance 0.2", "expected --distance '0.2', got '0.1'");
+  // defaults that are given, as other text for the same numbers, are the same search
+  refused(command + " --distance 1e-1 --contacts any --seed +1", " is the list of this search");
+  std::string without = list;
+  const std::string stated = R"("distance":"0.1",)";
+  REQUIRE(without.find(stated) != std::string::npos);
+  without.erase(without.find(stated), stated.size());
+  const auto shorter = folder.file("without.jsonl", without);
+  CHECK(has(run(barrett + "--no-verify --count 1 -o " + shorter).out,
+            shorter + " is the list of this search"));
   refused(command + " --mass 0.2", "expected --mass '0.2', got none");
   refused(barrett + "-o " + out, "expected no --no-verify, got --no-verify");
   refused("plan models/hands/barrett/barrett.cfg models/objects/mug.iv --no-verify -o " + out,

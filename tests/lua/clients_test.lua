@@ -17,15 +17,15 @@ test("the Python client passes its tests", function(t)
   t.ok(ok and text:find "\nOK\n" ~= nil, text)
 end)
 
--- `clench serve` in the background: calls use(url, port)
+-- `clench serve` in the background: calls use(url, port, process)
 local function with_server(use)
   local path = test.path()
   local server = io.popen(("echo $$; exec '%s' -q serve worlds/barrett_mug.wld --port 0 --token-file %s"):format(program, path .. ".token"))
   local process = server:read "l"
   server:read "l"
   local url = server:read("l"):match "%S+$"
-  local ok, problem = pcall(use, url, url:match ":(%d+)/")
-  os.execute("kill " .. process)
+  local ok, problem = pcall(use, url, url:match ":(%d+)/", process)
+  os.execute("kill " .. process .. " 2>/dev/null")
   server:close()
   if not ok then error(problem, 0) end
 end
@@ -59,9 +59,10 @@ end
 
 test("the MATLAB clients pass their tests in Octave", function(t)
   need_octave(t)
-  with_server(function(url)
-    local _, text = run(("CLENCH_URL='%s' %s'addpath clients/matlab/tests; client_test'"):format(url, octave))
+  with_server(function(url, _, process)
+    local _, text = run(("CLENCH_URL='%s' CLENCH_PROCESS=%s %s'addpath clients/matlab/tests; client_test'"):format(url, process, octave))
     t.ok(text:find "passed by bash\n" ~= nil, text)
+    t.ok(text:find "passed at the end of the server\n" ~= nil, text)
     local has_tcpclient = run(octave .. "'pkg load instrument-control'")
     if has_tcpclient then t.ok(text:find "passed by tcpclient\n" ~= nil, text) end
   end)

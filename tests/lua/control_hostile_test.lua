@@ -1,5 +1,7 @@
 -- Clients that send invalid data at the same time and disconnect at any point: each line is answered or its client dropped, and the server continues.
 local test, clench = require "test", require "clench"
+local find_three = require "clench.page.three"
+local web_client = dofile "tests/lua/web_client.lua"
 local json, loop = clench.json, clench.loop
 
 local lines = tonumber(os.getenv "CLENCH_HOSTILE_LINES" or 1500)
@@ -78,6 +80,67 @@ test("every mutated request of JSON-RPC is answered, or is a notification", func
   end
   t.ok(answers > lines / 2, answers)
   t.ok(codes[-32700] and codes[-32601] and codes[-32602])
+end)
+
+-- bytes, some of them changed, lost or inserted
+local function damaged(bytes, random)
+  for _ = 1, random:integer(1, 3) do
+    local at, byte = random:integer(1, math.max(1, #bytes)), string.char(random:integer(0, 255))
+    local kind = random:integer(1, 3)
+    if kind == 1 then bytes = bytes:sub(1, at - 1) .. byte .. bytes:sub(at + 1) end
+    if kind == 2 then bytes = bytes:sub(1, at - 1) .. bytes:sub(at + 1) end
+    if kind == 3 then bytes = bytes:sub(1, at) .. byte .. bytes:sub(at + 1) end
+  end
+  return bytes
+end
+
+test("every damaged request of the live page and every damaged frame is answered, or its client dropped", function(t)
+  local three, missing = find_three()
+  if not three then t.skip(missing) end
+  local reasons = {}
+  local server <close> = clench.control.server {world = world, port = 0, http = 0, on_close = function(client) reasons[client.reason] = (reasons[client.reason] or 0) + 1 end}
+  local target, before, random = "/socket?token=" .. server.token, world:hash(), clench.random(4)
+  local function shake() return (web_client.open(server.http, target)) end
+  local head = ("GET /?token=%s HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nContent-Length: 0\r\nTransfer-Encoding: chunked\r\n\r\n"):format(server.token)
+  local statuses = {}
+  for i = 1, lines // 4 do
+    local port = clench.port.connect("127.0.0.1", server.http)
+    local bytes = damaged(head, random)
+    port:write(bytes)
+    -- where the end of the request is damaged, the server waits for it
+    local answer = port:read_until("\r\n\r\n", bytes:find("\r\n\r\n", 1, true) and 10 or 0.001)
+    local status = answer and answer:match "^HTTP/1.1 (%d+) "
+    t.ok(status or not bytes:find("\r\n\r\n", 1, true), ("request %d: %q"):format(i, bytes))
+    if status then statuses[status] = (statuses[status] or 0) + 1 end
+    port:close()
+  end
+  t.ok(statuses["400"] and not statuses["101"] and not statuses["500"], json.encode(statuses))
+  -- pong, close or "closed"; "waits" if a damaged size swallows the ping
+  local function outcome_of(port)
+    while true do
+      local ok, got, why = pcall(web_client.read_frame, port, 0.02)
+      if not ok or not got then return why == "closed" and "closed" or "waits" end
+      if got.opcode == 8 or got.opcode == 10 then return got.opcode == 8 and "refused" or "answered" end
+    end
+  end
+  local ping, outcomes = web_client.frame(9, "still there?"), {answered = 0, refused = 0, closed = 0, waits = 0}
+  for _ = 1, lines // 5 do
+    local port = shake()
+    local bytes = web_client.frame(1, request("hello", {token = server.token})) .. web_client.frame(1, rpc_lines[random:integer(1, #rpc_lines)], {last = random:uniform() < 0.9})
+    port:write(damaged(bytes, random) .. ping)
+    local outcome = outcome_of(port)
+    outcomes[outcome] = outcomes[outcome] + 1
+    port:close()
+  end
+  t.ok(outcomes.answered > lines // 150 and outcomes.refused > lines // 20 and outcomes.waits < lines // 10, json.encode(outcomes))
+  local last = loop.time() + 20
+  while #server.clients > 0 and loop.time() < last do loop.sleep(0.01) end
+  t.equal(#server.clients, 0)
+  t.equal(reasons["an internal error"], nil)
+  t.equal(world:hash(), before)
+  local port = shake()
+  port:write(ping)
+  t.equal(web_client.read_frame(port, 10), {opcode = 10, payload = "still there?"})
 end)
 
 test("64 clients that connect and disconnect at any point do not disturb each other", function(t)

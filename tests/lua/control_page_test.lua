@@ -112,6 +112,7 @@ test("in Chromium frames arrive while the world runs, and plots, tree and camera
   page:await("latest.time === " .. ("%.17g"):format(world.time))
   t.equal(page:evaluate "document.querySelector('#view .shown').textContent", ("%.3f s"):format(world.time))
 
+  t.equal(page:evaluate "[...document.querySelectorAll('#dofs label span')].map(one => one.textContent)", world.robots[1].dof_names)
   local names = page:evaluate "[...document.querySelectorAll('#bodies label')].map(one => one.textContent.trim())"
   t.equal(#names, #world.bodies)
   local before = samples(page)

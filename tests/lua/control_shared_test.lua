@@ -3,9 +3,9 @@ local test, clench = require "test", require "clench"
 local connect = dofile "tests/lua/rpc_client.lua"
 local json, loop = clench.json, clench.loop
 
-local function serve()
+local function serve(on_connect)
   local world = clench.load("worlds/barrett_mug.wld", {root = "."})
-  return clench.control.server {world = world, port = 0}, world
+  return clench.control.server {world = world, port = 0, on_connect = on_connect}, world
 end
 
 local function code(response) return response.error and response.error.code end
@@ -87,4 +87,24 @@ test("clients with the same rate share snapshots, and each has its own until it 
   local last = loop.time() + 10
   while next(server.snapshot_groups) and loop.time() < last do loop.sleep(0.01) end
   t.equal(next(server.snapshot_groups), nil)
+end)
+
+test("a client that has gone leaves nothing in memory, whatever it had subscribed to", function(t)
+  local kept = setmetatable({}, {__mode = "k"})
+  local server <close>, world = serve(function(client) kept[client] = true end)
+  for _ = 1, 20 do
+    local client = connect(server)
+    for _, event in ipairs {"contact", "contact_lost", "limit", "changed", "diagnostic", "result"} do client.get("subscribe", {event = event}) end
+    client.get("subscribe_state", {rate = 1000, poses = true, contacts = true})
+    client.port:write('[{"jsonrpc":"2.0","id":1,"method":"world.hash"},{"jsonrpc":"2.0","id":2,"method":"world.list"}]\n{"jsonrpc":')
+    client.port:close()
+  end
+  local last = loop.time() + 20
+  repeat
+    loop.sleep(0.01)
+    collectgarbage()
+    collectgarbage()
+  until next(kept) == nil or loop.time() > last
+  t.equal(next(kept), nil)
+  t.equal(world.time, 0)
 end)

@@ -76,6 +76,18 @@ test("no preload exceeds the limits of motors or contacts", function(t)
   t.equal(grasp:optimal_preload({loads = {force(0, 0, 1.01)}, max_force = cap}).status, "infeasible")
 end)
 
+test("a preload scales with loads and limits of any size, and inactive limits change nothing", function(t)
+  local grasp = closed()
+  for _, size in ipairs {1e-12, 1e-4, 1, 1e4, 1e12} do
+    for _, locked in ipairs {false, true} do
+      local loads = {zero, force(3 * size, 0, 0)}
+      t.close(grasp:optimal_preload({loads = loads, torque_limits = false, locked = locked}).fraction / size, 3, 1e-9)
+      t.close(grasp:optimal_preload({loads = loads, torque_limits = {10 * size, 20 * size}, locked = locked}).fraction, 0.3, 1e-9)
+    end
+  end
+  t.close(grasp:optimal_preload({loads = {force(3, 0, 0)}, torque_limits = {1e9, 1e9}, max_force = 1e9}).torques[1], 3, 1e-6)
+end)
+
 test("the tendon of a gripper on springs keeps the smallest torque that holds all loads", function(t)
   local world = clench.load("worlds/tendon_cylinder.wld", {root = "."})
   local hand, cylinder = world.robots[1], world.objects[1]

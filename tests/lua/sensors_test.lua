@@ -155,6 +155,32 @@ test("a real hand and the simulated one follow each other, and a stop ends the m
   t.fails(function() session:run "sensors.pull" end, "the real hand has 4 DOFs, and dlr has 12")
 end)
 
+test("a real hand follows continuously, a drag once it has ended, until it is stopped", function(t)
+  local session = opened()
+  local device <close> = simulated.barrett {}
+  connect(t, session, "hand", device)
+  session:run("sensors.push", {max_speed = 10, continuous = true})
+  local function arrives(finger)
+    run_until(t, function() return math.abs(session.sensors.hand.reading[2] - finger) < 1e-3 end)
+  end
+  for _, finger in ipairs {0.4, 0.2} do
+    session:run("grasp.dofs", {dofs = {0, finger, 0.1, 0.1}})
+    arrives(finger)
+  end
+  -- within a gesture it stays
+  session:begin_gesture "Drag"
+  session.hand.dofs = {0, 0.6, 0.1, 0.1}
+  renew(t, session, "hand")
+  t.close(session.sensors.hand.reading[2], 0.2, 1e-3)
+  session:end_gesture()
+  arrives(0.6)
+  session:run "sensors.stop"
+  run_until(t, function() return session.sensors.hand.task == nil end)
+  session:run("grasp.dofs", {dofs = {0, 0.1, 0.1, 0.1}})
+  renew(t, session, "hand")
+  t.close(session.sensors.hand.reading[2], 0.6, 1e-3)
+end)
+
 test("a device that does not answer stops nothing, and one that is lost is reported and can be connected again", function(t)
   local session = opened()
   local messages = {}
@@ -174,6 +200,11 @@ test("a device that does not answer stops nothing, and one that is lost is repor
   local other <close> = simulated.cyberglove {}
   connect(t, session, "glove", other)
   t.equal(session.sensors.glove.problem, nil)
+  load_calibration(session)
+  session:run "sensors.follow"
+  other:unplug()
+  run_until(t, function() return session.following == nil end)
+  t.equal(messages[#messages], "session: the glove is lost")
 
   local broken <close> = simulated.cyberglove {}
   broken.state = 1

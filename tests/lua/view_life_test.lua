@@ -188,13 +188,14 @@ test("settings and recent files are kept", function(t)
   local kept = preferences.keep(view, file)
   view:menu "View/Dark Theme"
   view:menu "View/Millimeters"
+  view:menu "View/Degrees"
   view.hidden.Plots = true
   kept.tick(0)
   view:close()
   local other = clench.view.offscreen {session = session, size = {640, 480}}
   preferences.keep(other, file)
   t.equal(other.dark, true)
-  t.equal(other.units.length, "mm")
+  t.equal(other.units, {length = "mm", angle = "deg"})
   t.equal(other.hidden.Plots, true)
   t.equal(other.recent, {path})
   session:run "world.new"

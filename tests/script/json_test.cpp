@@ -75,7 +75,7 @@ TEST_CASE("data that JSON cannot represent are rejected with their place") {
   CHECK(refused("clench.random(1)") ==
         at + "value: expected a value that JSON can hold, got a random");
   CHECK(refused("") == at + "value: expected a value, got nothing");
-  CHECK(refused("1, {indent = 99}") == at + "indent: expected 0 to 16, got 99");
+  CHECK(refused("1, {indent = 99}") == at + "indent must be 0 to 16, got 99");
   CHECK(lua.run("local t = {} t.t = {t} return clench.json.encode(t)") ==
         at + "value.t[1]: expected no table within itself");
   CHECK(lua.run("local t = {} for i = 1, 1000 do t = {t} end return clench.json.encode(t)")

@@ -36,5 +36,10 @@ for what in geometry quality; do
   run $what
   wants "$what alone writes none" "$(tail -n 1 "$CALLS")" "bench "
 done
+# the viewer's bench is a script that the command runs
+fake build/release/clench 'echo "clench $* $XDG_CONFIG_HOME" >>"$CALLS"; exit 3'
+DISPLAY=:7 run view --check --record
+wants "view runs with the settings of a new user" "$(tail -n 1 "$CALLS")" "clench -q run tests/bench/view.lua --check --csv docs/benchmarks/view.csv */build/bench_view"
+wants "view fails as its program does" "$status" 3
 run geometry --chekc
 wants "a misspelt option is rejected" "$status $said$(cat "$CALLS")" "2 usage: scripts/bench geometry \[--check\] \[--record\]"

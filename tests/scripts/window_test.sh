@@ -31,9 +31,13 @@ said=$(echo 'view:frame() print(view.frames > 0, session.world)' | timeout 60 "$
 code=$?
 if [ $code != 0 ] || [[ "$said" != "true"*"world"* ]]; then fail "repl --view: $code $said"; fi
 
-"$clench" view worlds/barrett_mug.wld --root . --script tests/scripts/window.lua >"$folder/said" 2>&1 &
-viewer=$!
-children+=($viewer)
+start() {
+  rm -f "$folder/state.txt" "$folder/items.txt"
+  "$clench" view "$@" --script tests/scripts/window.lua >"$folder/said" 2>&1 &
+  viewer=$!
+  children+=($viewer)
+}
+start worlds/barrett_mug.wld --root .
 
 value() { sed -n "s/^$1 //p" "$folder/state.txt" 2>/dev/null; }
 # waits until VALUE is, or is not, a text; at most a minute
@@ -51,7 +55,7 @@ until_value() {
 }
 click() {
   for _ in $(seq 600); do
-    at=$(sed -n "s/ $1\$//p" "$folder/items.txt" | tail -1)
+    at=$(sed -n "s/ $1\$//p" "$folder/items.txt" 2>/dev/null | tail -1)
     [ -n "$at" ] && break
     sleep 0.1
   done
@@ -90,6 +94,15 @@ xdotool key ctrl+z
 until_value hash is "$first"
 xdotool key ctrl+shift+z
 until_value hash is "$closed"
+
+# a crash leaves the unsaved work, which the next start offers
+for _ in $(seq 300); do ls "$XDG_STATE_HOME"/clench/autosave-*.lua >/dev/null 2>&1 && break; sleep 0.1; done
+kill -9 $viewer
+wait $viewer 2>/dev/null
+start
+click Restore
+until_value hash is "$closed"
+until_value modified is true
 
 # closing asks about unsaved changes: first the window stays, then it closes
 xdotool key ctrl+q

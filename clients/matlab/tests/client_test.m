@@ -1,5 +1,5 @@
 % Both clients against clench serve worlds/barrett_mug.wld, by each available transport:
-%   CLENCH_URL='tcp://127.0.0.1:4765/?token=...' octave-cli clients/matlab/tests/client_test.m
+%   CLENCH_URL='tcp://127.0.0.1:4765/?token=...' CLENCH_PROCESS=1234 octave-cli clients/matlab/tests/client_test.m
 function client_test()
   folder = fileparts(mfilename('fullpath'));
   addpath(fullfile(folder, '..'));
@@ -29,8 +29,17 @@ function client_test()
     wrappersRefuse();
     graspitServer('close');
     connectionsEndInAnyOrder(client, url, transports{i});
+    last{i} = ClenchClient(url, transports{i});
     printf('passed by %s\n', transports{i});
   end
+  lostConnectionsAreErrors(last);
+end
+
+% ends the server
+function lostConnectionsAreErrors(clients)
+  system(['kill ' getenv('CLENCH_PROCESS')]);
+  for i = 1:numel(clients), fails(@() clients{i}.call('world.hash'), 'clench:ConnectionLost'); end
+  disp('passed at the end of the server');
 end
 
 function connectionsEndInAnyOrder(client, url, transport)

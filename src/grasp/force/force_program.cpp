@@ -246,23 +246,33 @@ bool is_driven(const ForceProgram& p, const Grasp& grasp, int k) {
   return !ref.clutch && ref.robot == grasp.hand && p.low[k] < p.high[k];
 }
 
-// `extra` at least the effort over its limit, in either direction
-void bound_fraction(ForceProgram& p, int effort, int k) {
-  const double high = std::isfinite(p.high[k]) ? p.high[k] : 1,
-               low = std::isfinite(p.low[k]) ? p.low[k] : -1;
-  p.builder.at_most({{effort, number(1)}, {p.extra, number(-std::max(0.0, high))}},
-                    numbers(-p.at_rest[k]));
-  p.builder.at_most({{effort, number(-1)}, {p.extra, number(std::min(0.0, low))}},
-                    numbers(p.at_rest[k]));
+// limits of a motor, +-1 where it has none
+EffortRange limits_of(const ForceProgram& p, int k) {
+  return {std::isfinite(p.low[k]) ? std::min(0.0, p.low[k]) : -1,
+          std::isfinite(p.high[k]) ? std::max(0.0, p.high[k]) : 1};
 }
 
-// `extra` as the largest fraction of the efforts of the hand's motors
-void minimize_fraction(ForceProgram& p, const Grasp& grasp, int efforts) {
+// `extra`, over `unit`, as the largest fraction of the efforts of the hand's motors
+void minimize_fraction(LoadedProgram& out, const Grasp& grasp) {
+  ForceProgram& p = out.program;
   p.extra = p.builder.unknowns(1);
   p.builder.cost(p.extra, 1);
   p.builder.at_most({{p.extra, number(-1)}}, numbers(0));
-  for (int k = 0; k < static_cast<int>(p.joints.refs.size()); ++k)
-    if (is_driven(p, grasp, k)) bound_fraction(p, efforts + k, k);
+  const int efforts = static_cast<int>(p.joints.refs.size());
+  double largest = 0;
+  for (int k = 0; k < efforts; ++k)
+    if (is_driven(p, grasp, k))
+      largest = std::max({largest, limits_of(p, k).high, -limits_of(p, k).low});
+  if (largest > 0) out.unit = largest;
+  for (int k = 0; k < efforts; ++k) {
+    if (!is_driven(p, grasp, k)) continue;
+    const EffortRange range = limits_of(p, k);
+    const int effort = out.efforts + k;
+    p.builder.at_most({{effort, number(1)}, {p.extra, number(-range.high / out.unit)}},
+                      numbers(-p.at_rest[k]));
+    p.builder.at_most({{effort, number(-1)}, {p.extra, number(range.low / out.unit)}},
+                      numbers(p.at_rest[k]));
+  }
   p.program = p.builder.program();
   p.solution = solve(p.program);
 }
@@ -302,7 +312,7 @@ LoadedProgram make_constant_preload(const World& world, const Grasp& grasp,
       if (is_driven(p, grasp, k))
         p.builder.equal({{out.efforts + k, number(1)}, {p.u + k, number(-1)}}, numbers(0));
   }
-  minimize_fraction(p, grasp, out.efforts);
+  minimize_fraction(out, grasp);
   return out;
 }
 
@@ -322,7 +332,7 @@ LoadedProgram make_locked_preload(const World& world, const Grasp& grasp,
     add_cones(p, grasp, options, false);
     out.forces.push_back(p.f);
   }
-  minimize_fraction(p, grasp, out.efforts);
+  minimize_fraction(out, grasp);
   return out;
 }
 

@@ -47,9 +47,11 @@ ForceProgram make_program(const World& world, const Grasp& grasp, const ForceOpt
 
 /// A program in which one preload of the hand's motors holds several loads.
 struct LoadedProgram {
-  ForceProgram program;     ///< minimizes `extra`: the largest effort as a fraction of its limit
-  std::vector<int> forces;  ///< per load: column of the contact forces
-  int efforts = 0;          ///< column of the efforts of the preload, relative to `at_rest`
+  /// minimizes `extra`: the largest effort as a fraction of its limit, times `unit`
+  ForceProgram program;
+  double unit = 1;               ///< largest limit, so that `extra` has the size of efforts
+  std::vector<int> forces = {};  ///< per load: column of the contact forces
+  int efforts = 0;               ///< column of the efforts of the preload, relative to `at_rest`
 };
 
 /// Motors exert the same efforts at each load.

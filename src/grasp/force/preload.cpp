@@ -83,7 +83,7 @@ Preload optimal_preload(const World& world, const Grasp& grasp, const PreloadOpt
   const ForceProgram& p = many->program;
   const int dofs = static_cast<int>(world.robot(grasp.hand).dofs.size());
   out.efforts = p.solution.x.segment(many->efforts, dofs) + p.at_rest.head(dofs);
-  out.fraction = std::max(0.0, p.solution.x[p.extra]);
+  out.fraction = std::max(0.0, p.solution.x[p.extra] / many->unit);
   for (size_t k = 0; k < loads_O.size(); ++k) {
     if (!holds(p, many->forces[k], loads_O[k])) out.status = ConeStatus::inaccurate;
     out.normals.push_back(normals_at(p, many->forces[k]));

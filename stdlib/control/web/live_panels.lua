@@ -21,9 +21,9 @@ data.parts.forEach((part, i) => addBox(part.robot === undefined ? bodies : branc
 
 // --- DOFs: a slider for each where the server lets the page move them ---
 const rows = new Map();  // by robot: {dofs, inputs, outputs, held, isSending, next}
-function addDof(robot, row, i, limits, to) {
-  const label = element("label", undefined, to);
-  element("span", "DOF " + (i + 1), label);
+function addDof(robot, row, i, name, limits, to) {
+  const label = element("label", undefined, to), words = element("span", name, label);
+  words.title = name;
   const input = element("input", undefined, label), output = element("output", "", label);
   input.type = "range";
   const [low, high] = limits || [null, null];
@@ -53,10 +53,10 @@ async function listThings() {
   panel.textContent = "";
   rows.clear();
   for (const robot of list.robots) {
-    const {dof_limits, dofs} = await call("get", {of: robot, fields: ["dof_limits", "dofs"]});
+    const {dof_limits, dof_names, dofs} = await call("get", {of: robot, fields: ["dof_limits", "dof_names", "dofs"]});
     const row = {dofs, inputs: [], outputs: [], held: null, isSending: false, next: null};
     element("h3", robot, panel);
-    dofs.forEach((_, i) => addDof(robot, row, i, dof_limits[i], panel));
+    dofs.forEach((_, i) => addDof(robot, row, i, dof_names[i], dof_limits[i], panel));
     rows.set(robot, row);
   }
   if (data.control) addUndo(panel);
@@ -130,10 +130,8 @@ function drawPlot({canvas, points}) {
   canvas.height = height * ratio;
   const pen = canvas.getContext("2d");
   pen.scale(ratio, ratio);
-  let low = Math.min(...points.map(p => p[1])), high = Math.max(...points.map(p => p[1]));
-  const margin = Math.max((high - low) * 0.1, 1e-9, 1e-4 * Math.abs(high));
-  low -= margin;
-  high += margin;
+  const least = Math.min(...points.map(p => p[1])), most = Math.max(...points.map(p => p[1]));
+  const margin = Math.max((most - least) * 0.1, 1e-9, 1e-4 * Math.abs(most)), low = least - margin, high = most + margin;
   pen.strokeStyle = "#1f6feb";
   pen.lineWidth = 1.5;
   pen.beginPath();
@@ -147,8 +145,8 @@ function drawPlot({canvas, points}) {
   pen.stroke();
   pen.fillStyle = "#5d6b7a";
   pen.font = "10px sans-serif";
-  pen.fillText(high.toPrecision(4), 3, 11);
-  pen.fillText(low.toPrecision(4), 3, height - 4);
+  pen.fillText(shown(most), 3, 11);
+  pen.fillText(shown(least), 3, height - 4);
 }
 function addPoints(state) {
   const now = performance.now() / 1000, found = quantitiesOf(state);

@@ -12,6 +12,7 @@ main { grid-template-columns: minmax(420px, 1fr) 380px; }
 #bodies details { margin-left: 2px; } #bodies label { display: block; font-size: 13.5px; } #bodies details label { margin-left: 18px; }
 #bodies summary { font-size: 13.5px; font-weight: 600; cursor: pointer; }
 #dofs label { display: grid; grid-template-columns: 5.5em 1fr 4.5em; gap: 8px; font-size: 13px; align-items: center; }
+#dofs span { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
 #dofs output, #touches td { font-variant-numeric: tabular-nums; }
 #dofs h3 { font-size: 13px; margin: 4px 0; }
 #touches td, #touches th { padding: 2px 6px; font-size: 12.5px; position: static; } #touches td:first-child, #touches th:first-child { text-align: left; }

@@ -1,6 +1,7 @@
 --- Planners that run as background jobs of the session, and commands for these jobs. Their parameters are those of the functions of `clench.plan`.
 local arguments = require "clench.session.arguments"
 local conditions = require "clench.session.conditions"
+local descriptions = require "clench.signature.descriptions"
 
 local planners = {
   {"primitive", "Planner…"}, {"sample", "Sampling Planner…"}, {"antipodal", "Antipodal Planner…"}, {"random", "Random Planner…"},
@@ -31,7 +32,7 @@ end
 local function parameters_of(planner)
   local list = {{name = "hand", type = "robot", optional = true, text = "address of a robot; the current hand by default"},
                 {name = "object", type = "body", optional = true, text = "address of the object; the current one by default"}}
-  for _, field in ipairs(clench.describe("clench.plan." .. planner).parameters[1].fields) do list[#list + 1] = parameter_of(field) end
+  for _, field in ipairs(descriptions.of("clench.plan." .. planner).parameters[1].fields) do list[#list + 1] = parameter_of(field) end
   return list
 end
 

@@ -84,7 +84,8 @@ return {
   setting("save_calibration", "Save Calibration…", has_calibration, {file}, save_calibration),
   edit("pull", "Simulated Hand to Real One", hand_and(real_hand), sensed.pull),
   setting("push", "Real Hand to Simulated One…", hand_and(real_hand),
-          {{name = "max_speed", type = "number", min = 1e-3, max = 10, default = 1, unit = "rad/s", text = "of each joint"}},
-          function(session, args) sensed.push(session, args.max_speed) end),
+          {{name = "max_speed", type = "number", min = 1e-3, max = 10, default = 1, unit = "rad/s", text = "of each joint"},
+           {name = "continuous", type = "boolean", default = false, text = "true: it follows until it is stopped; a drag once it has ended"}},
+          function(session, args) sensed.push(session, args.max_speed, args.continuous) end),
   setting("stop", "Stop Real Hand", real_hand, nil, sensed.stop),
 }

@@ -111,15 +111,23 @@ local function draw_questions(view, ui, state)
   state.y = choose(ui, "##y", 56, coordinates, state.y)
 end
 
+local function state_of(view)
+  view.forces = view.forces or {objective = "min_sum", max_force = 0, factor = 1.5, x = "fx", y = "fz"}
+  return view.forces
+end
+
 local function draw(ui, view)
   local session = view.session
   if not (session.hand and session.object) then return ui:text("A hand and an object are needed.", {color = gray, wrap = true}) end
-  view.forces = view.forces or {objective = "min_sum", max_force = 0, factor = 1.5, x = "fx", y = "fz"}
-  draw_load(view, ui, view.forces)
-  draw_limits(view, ui, view.forces)
-  draw_torques(view, ui, view.forces)
-  draw_questions(view, ui, view.forces)
-  results.draw(view, ui, view.forces)
+  local state = state_of(view)
+  draw_load(view, ui, state)
+  draw_limits(view, ui, state)
+  draw_torques(view, ui, state)
+  draw_questions(view, ui, state)
+  results.draw(view, ui, state)
 end
 
-return {name = "Forces", place = "right", tab = true, draw = draw}
+-- makes torques the constant ones of the panel
+local function use(view, torques) state_of(view).torques = torques end
+
+return {name = "Forces", place = "right", tab = true, draw = draw, use = use}

@@ -55,6 +55,16 @@ local function draw_motion(view, ui)
   ui:text(view.session.sensors.frame and "relative" or "absolute", {color = gray})
 end
 
+-- the largest residual of a calibration, and its DOF; nil: it was read from a file
+local function largest_residual(calibration)
+  local largest, dof
+  for d = 1, calibration and calibration.report and #calibration.slopes or 0 do
+    local row = calibration.report[d]
+    if row and not (largest and largest >= row.max) then largest, dof = row.max, d end
+  end
+  return largest, dof
+end
+
 local function draw_calibration(view, ui)
   local state = view.session.sensors
   ui:spacing()
@@ -67,9 +77,8 @@ local function draw_calibration(view, ui)
   button(view, ui, "Load…", "load_calibration")
   ui:same_line()
   button(view, ui, "Save…", "save_calibration")
-  for d, row in pairs(state.calibration and state.calibration.report or {}) do
-    ui:text(("DOF %d: within %s"):format(d, units.text(view, row.max, "rad")))
-  end
+  local largest, dof = largest_residual(state.calibration)
+  if dof then ui:text(("residuals within %s (DOF %d)"):format(units.text(view, largest, "rad"), dof), {color = gray}) end
 end
 
 local function draw(ui, view)
