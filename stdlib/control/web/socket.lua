@@ -69,8 +69,8 @@ end
 -- a part of a message; returns the message when it is complete
 local function add_part(client, header, payload)
   local parts = client.parts
-  if header.opcode == 0 and not parts then return socket.refuse(client, 1002, "a message has no beginning") end
-  if header.opcode ~= 0 and parts then return socket.refuse(client, 1002, "a message has no end") end
+  if header.opcode == 0 and not parts then return socket.refuse(client, 1002, "a continuation without a first frame") end
+  if header.opcode ~= 0 and parts then return socket.refuse(client, 1002, "a new message before the end of the last one") end
   if header.is_last and not parts then return payload end
   parts = parts or {size = 0}
   client.parts = parts
