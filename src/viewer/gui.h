@@ -44,8 +44,8 @@ using Rgba = std::array<float, 4>;
 
 struct GuiStyle {
   bool dark = false;
-  double scale = 1;       ///< factor of fonts and sizes, > 0
-  double font_size = 15;  ///< at scale 1 [pixels]
+  double scale = 1;       ///< factor of fonts and sizes, 0.25 to 8
+  double font_size = 15;  ///< at scale 1; times scale 4 to 128 [pixels]
 };
 
 struct WindowOptions {

@@ -28,8 +28,8 @@ bool Gui::window(const std::string& name, const WindowOptions& options, Body bod
       options.movable || options.resizable ? ImGuiCond_Appearing : ImGuiCond_Always;
   const GuiRect& at = options.rect;
   if (at.width > 0) {
-    ImGui::SetNextWindowPos({static_cast<float>(at.x), static_cast<float>(at.y)}, when);
-    ImGui::SetNextWindowSize({static_cast<float>(at.width), static_cast<float>(at.height)}, when);
+    ImGui::SetNextWindowPos({pixels(at.x), pixels(at.y)}, when);
+    ImGui::SetNextWindowSize({pixels(at.width), pixels(at.height)}, when);
   }
   ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings;
   if (!options.title) flags |= ImGuiWindowFlags_NoTitleBar;
@@ -41,18 +41,18 @@ bool Gui::window(const std::string& name, const WindowOptions& options, Body bod
   if (at.width <= 0) flags |= ImGuiWindowFlags_AlwaysAutoResize;
   bool open = true;
   if (options.modal) {
-    if (!ImGui::IsPopupOpen(name.c_str())) ImGui::OpenPopup(name.c_str());
+    if (!ImGui::IsPopupOpen(imgui_label(name))) ImGui::OpenPopup(imgui_label(name));
     if (at.width <= 0)
       ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing,
                               {0.5f, 0.5f});
-    if (!ImGui::BeginPopupModal(name.c_str(), options.can_close ? &open : nullptr, flags))
+    if (!ImGui::BeginPopupModal(imgui_label(name), options.can_close ? &open : nullptr, flags))
       return open;
     s.windows.push_back(visible_label(name));
     const Closing closing([&] { s.windows.pop_back(), ImGui::EndPopup(); });
     body();
     return open;
   }
-  const bool visible = ImGui::Begin(name.c_str(), options.can_close ? &open : nullptr, flags);
+  const bool visible = ImGui::Begin(imgui_label(name), options.can_close ? &open : nullptr, flags);
   s.windows.push_back(visible_label(name));
   const Closing closing([&] { s.windows.pop_back(), ImGui::End(); });
   if (visible && options.title) {
@@ -67,8 +67,7 @@ bool Gui::window(const std::string& name, const WindowOptions& options, Body bod
 }
 
 void Gui::child(const std::string& id, double width, double height, bool border, Body body) {
-  const bool visible = ImGui::BeginChild(
-      id.c_str(), {static_cast<float>(width), static_cast<float>(height)}, border);
+  const bool visible = ImGui::BeginChild(imgui_label(id), {pixels(width), pixels(height)}, border);
   const Closing closing([] { ImGui::EndChild(); });
   if (visible) body();
 }
@@ -86,7 +85,7 @@ void Gui::menu(const std::string& label, bool enabled, Body body) {
   const float below = ImGui::GetCursorScreenPos().y + ImGui::GetFrameHeight();
   const float space = std::max(ImGui::GetIO().DisplaySize.y - below - 8, 60.0F);
   ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(FLT_MAX, space));
-  const bool open = ImGui::BeginMenu(label.c_str(), enabled);
+  const bool open = ImGui::BeginMenu(imgui_label(label), enabled);
   if (open) {
     state_->windows.push_back(visible_label(label));
     const Closing closing([this] { state_->windows.pop_back(), ImGui::EndMenu(); });
@@ -98,26 +97,26 @@ void Gui::menu(const std::string& label, bool enabled, Body body) {
 
 bool Gui::menu_item(const std::string& label, const std::string& shortcut, bool selected,
                     bool enabled) {
-  const bool clicked = ImGui::MenuItem(label.c_str(), shortcut.empty() ? nullptr : shortcut.c_str(),
-                                       selected, enabled);
+  const bool clicked = ImGui::MenuItem(
+      imgui_label(label), shortcut.empty() ? nullptr : shortcut.c_str(), selected, enabled);
   state_->note(label, "menu item");
   if (!state_->items.empty() && state_->items.back().label == visible_label(label))
     state_->items.back().enabled = enabled;
   return clicked;
 }
 
-void Gui::open_popup(const std::string& id) { ImGui::OpenPopup(id.c_str()); }
+void Gui::open_popup(const std::string& id) { ImGui::OpenPopup(imgui_label(id)); }
 void Gui::close_popup() { ImGui::CloseCurrentPopup(); }
 
 void Gui::popup(const std::string& id, Body body) {
-  if (!ImGui::BeginPopup(id.c_str())) return;
+  if (!ImGui::BeginPopup(imgui_label(id))) return;
   state_->windows.push_back(visible_label(id));
   const Closing closing([this] { state_->windows.pop_back(), ImGui::EndPopup(); });
   body();
 }
 
 void Gui::context_menu(const std::string& id, Body body) {
-  if (!ImGui::BeginPopupContextItem(id.c_str())) return;
+  if (!ImGui::BeginPopupContextItem(imgui_label(id))) return;
   state_->windows.push_back(visible_label(id));
   const Closing closing([this] { state_->windows.pop_back(), ImGui::EndPopup(); });
   body();
@@ -132,7 +131,7 @@ void Gui::disabled(bool disabled, Body body) {
 }
 
 void Gui::id(const std::string& id, Body body) {
-  ImGui::PushID(id.c_str());
+  ImGui::PushID(imgui_label(id));
   const Closing closing([] { ImGui::PopID(); });
   body();
 }
@@ -145,10 +144,10 @@ void Gui::group(Body body) {
 
 void Gui::tabs(const std::string& id, std::span<const std::string> names,
                FunctionRef<void(size_t)> body) {
-  if (!ImGui::BeginTabBar(id.c_str())) return;
+  if (!ImGui::BeginTabBar(imgui_label(id))) return;
   const Closing closing([] { ImGui::EndTabBar(); });
   for (size_t i = 0; i < names.size(); ++i) {
-    const bool open = ImGui::BeginTabItem(names[i].c_str());
+    const bool open = ImGui::BeginTabItem(imgui_label(names[i]));
     state_->note(names[i], "tab");
     if (!open) continue;
     const Closing closing_tab([] { ImGui::EndTabItem(); });
@@ -161,7 +160,7 @@ int Gui::tree(const std::string& label, const TreeOptions& options, Body body) {
   if (options.open) flags |= ImGuiTreeNodeFlags_DefaultOpen;
   if (options.leaf) flags |= ImGuiTreeNodeFlags_Leaf;
   if (options.selected) flags |= ImGuiTreeNodeFlags_Selected;
-  const bool open = ImGui::TreeNodeEx(label.c_str(), flags);
+  const bool open = ImGui::TreeNodeEx(imgui_label(label), flags);
   state_->note(label, "tree");
   int clicked = 0;
   if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen())
@@ -175,7 +174,7 @@ int Gui::tree(const std::string& label, const TreeOptions& options, Body body) {
 
 bool Gui::collapsing(const std::string& label, bool open, Body body) {
   const bool visible = ImGui::CollapsingHeader(
-      label.c_str(), open ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None);
+      imgui_label(label), open ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None);
   state_->note(label, "header");
   if (visible) body();
   return visible;
@@ -186,8 +185,8 @@ void Gui::table(const std::string& id, std::span<const std::string> columns, dou
   const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV |
                                 ImGuiTableFlags_Resizable | ImGuiTableFlags_SizingStretchProp |
                                 (height > 0 ? ImGuiTableFlags_ScrollY : 0);
-  if (!ImGui::BeginTable(id.c_str(), static_cast<int>(columns.size()), flags,
-                         {0, static_cast<float>(height)}))
+  if (!ImGui::BeginTable(imgui_label(id), static_cast<int>(columns.size()), flags,
+                         {0, pixels(height)}))
     return;
   const Closing closing([] { ImGui::EndTable(); });
   bool named = false;

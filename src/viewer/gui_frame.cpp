@@ -69,6 +69,7 @@ bool changes_state(const InputEvent& event) {
 
 Gui::Gui(std::unique_ptr<Screen> screen, const GuiStyle& style)
     : state_(std::make_unique<State>()) {
+  check_style(style);
   claim_thread();
   try {
     state_->screen = std::move(screen);
@@ -111,7 +112,10 @@ Gui::~Gui() {
 
 void Gui::resume() { state_->use(); }
 
-void Gui::set_style(const GuiStyle& style) { state_->style = style, state_->style_changed = true; }
+void Gui::set_style(const GuiStyle& style) {
+  check_style(style);
+  state_->style = style, state_->style_changed = true;
+}
 const GuiStyle& Gui::style() const { return state_->style; }
 
 void Gui::add(InputEvent event) { state_->waiting.push_back(std::move(event)); }

@@ -2,6 +2,7 @@
 #pragma once
 #include <imgui.h>
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -43,8 +44,19 @@ struct Gui::State {
 /// The visible part of a label: without "##id".
 std::string visible_label(const std::string& label);
 
+/// A position or size for Dear ImGui, whose integers do not hold larger ones.
+inline float pixels(double x) { return static_cast<float>(std::clamp(x, -1e6, 1e6)); }
+
+/// A label for Dear ImGui, which aborts at an empty one; "##" displays nothing, too.
+inline const char* imgui_label(const std::string& label) {
+  return label.empty() ? "##" : label.c_str();
+}
+
 ImVec4 to_imgui(const Rgba& color);
 ImU32 packed(const Rgba& color);
+
+/// throws  Error unless fonts of this style fit into a texture
+void check_style(const GuiStyle& style);
 
 /// Sets colors and sizes.
 void apply_style(const GuiStyle& style);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "clench/base/error.h"
 #include "clench/viewer/gui_state.h"
 
 namespace clench {
@@ -30,6 +31,16 @@ ImVec4 mixed(const ImVec4& a, const ImVec4& b, float part) {
 }
 
 }  // namespace
+
+void check_style(const GuiStyle& style) {
+  constexpr double min_scale = 0.25, max_scale = 8, min_size = 4, max_size = 128;
+  const double size = style.font_size * style.scale;
+  if (!(style.scale >= min_scale && style.scale <= max_scale))
+    fail("scale of the view: expected {} to {}, got {}", min_scale, max_scale, style.scale);
+  if (!(size >= min_size && size <= max_size))
+    fail("font_size of the view, times its scale: expected {} to {} pixels, got {}", min_size,
+         max_size, size);
+}
 
 void apply_style(const GuiStyle& style) {
   ImGuiStyle& s = ImGui::GetStyle();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clench/base/error.h"
 #include "clench/viewer/gui_state.h"
 
 namespace clench {
@@ -18,7 +19,8 @@ std::string checked_format(const std::string& format) {
   const bool single =
       percent != std::string::npos && format.find('%', percent + 1) == std::string::npos;
   const size_t end = single ? format.find_first_not_of("0123456789.+- #", percent + 1) : percent;
-  if (end != std::string::npos &&
+  constexpr size_t max_flags = 6;  // wide numbers would fill the memory
+  if (end != std::string::npos && end - percent <= max_flags + 1 &&
       std::string_view("fgeFGE").find(format[end]) != std::string_view::npos)
     return format;
   return "%.4g";
@@ -43,36 +45,38 @@ void Gui::text(const std::string& text, std::optional<Rgba> color, bool wrap) {
 bool Gui::button(const std::string& label, double width, double height, bool selected) {
   if (selected)
     ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
-  const bool clicked =
-      ImGui::Button(label.c_str(), {static_cast<float>(width), static_cast<float>(height)});
+  const bool clicked = ImGui::Button(imgui_label(label), {pixels(width), pixels(height)});
   if (selected) ImGui::PopStyleColor();
   state_->note(label, "button");
   return clicked;
 }
 
 Edited<bool> Gui::checkbox(const std::string& label, bool value) {
-  const bool changed = ImGui::Checkbox(label.c_str(), &value);
+  const bool changed = ImGui::Checkbox(imgui_label(label), &value);
   state_->note(label, "checkbox");
   return {value, changed, changed};
 }
 
 bool Gui::radio(const std::string& label, bool selected) {
-  const bool clicked = ImGui::RadioButton(label.c_str(), selected);
+  const bool clicked = ImGui::RadioButton(imgui_label(label), selected);
   state_->note(label, "radio");
   return clicked;
 }
 
 bool Gui::selectable(const std::string& label, bool selected) {
   const bool clicked =
-      ImGui::Selectable(label.c_str(), selected, ImGuiSelectableFlags_AllowDoubleClick);
+      ImGui::Selectable(imgui_label(label), selected, ImGuiSelectableFlags_AllowDoubleClick);
   state_->note(label, "selectable");
   return clicked;
 }
 
 Edited<double> Gui::slider(const std::string& label, double value, double low, double high,
                            const std::string& format) {
-  const bool changed = ImGui::SliderScalar(label.c_str(), ImGuiDataType_Double, &value, &low, &high,
-                                           checked_format(format).c_str());
+  constexpr double max_value = 1e300;  // Dear ImGui aborts at a range wider than a double
+  if (!(std::abs(low) <= max_value && std::abs(high) <= max_value))
+    fail("slider '{}': expected a range within -1e300 to 1e300, got {} to {}", label, low, high);
+  const bool changed = ImGui::SliderScalar(imgui_label(label), ImGuiDataType_Double, &value, &low,
+                                           &high, checked_format(format).c_str());
   const Edited<double> result = edited(value, changed);
   state_->note(label, "slider");
   return result;
@@ -82,7 +86,7 @@ Edited<double> Gui::drag(const std::string& label, double value, double speed, d
                          double high, const std::string& format) {
   const bool bounded = std::isfinite(low) || std::isfinite(high);
   const bool changed =
-      ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, &value, static_cast<float>(speed),
+      ImGui::DragScalar(imgui_label(label), ImGuiDataType_Double, &value, static_cast<float>(speed),
                         bounded ? &low : nullptr, bounded ? &high : nullptr,
                         checked_format(format).c_str(), ImGuiSliderFlags_AlwaysClamp);
   const Edited<double> result = edited(value, changed);
@@ -92,8 +96,8 @@ Edited<double> Gui::drag(const std::string& label, double value, double speed, d
 
 Edited<double> Gui::number(const std::string& label, double value, double step,
                            const std::string& format) {
-  const bool changed =
-      ImGui::InputDouble(label.c_str(), &value, step, 10 * step, checked_format(format).c_str());
+  const bool changed = ImGui::InputDouble(imgui_label(label), &value, step, 10 * step,
+                                          checked_format(format).c_str());
   const Edited<double> result = edited(std::isfinite(value) ? value : 0, changed);
   state_->note(label, "number");
   return result;
@@ -109,10 +113,10 @@ Edited<std::string> Gui::input(const std::string& label, const std::string& valu
   bool changed;
   if (options.lines > 1)
     changed = ImGui::InputTextMultiline(
-        label.c_str(), &text,
+        imgui_label(label), &text,
         {-1, ImGui::GetTextLineHeight() * static_cast<float>(options.lines + 1)}, flags);
   else
-    changed = ImGui::InputTextWithHint(label.c_str(), options.hint.c_str(), &text, flags);
+    changed = ImGui::InputTextWithHint(imgui_label(label), options.hint.c_str(), &text, flags);
   Edited<std::string> result = edited(text, text != value);
   result.finished = options.on_enter ? changed : result.finished;
   state_->note(label, "input");
@@ -121,14 +125,14 @@ Edited<std::string> Gui::input(const std::string& label, const std::string& valu
 
 Edited<int> Gui::combo(const std::string& label, int index, std::span<const std::string> choices) {
   const bool known = index >= 0 && index < static_cast<int>(choices.size());
-  const bool open = ImGui::BeginCombo(label.c_str(), known ? choices[index].c_str() : "");
+  const bool open = ImGui::BeginCombo(imgui_label(label), known ? choices[index].c_str() : "");
   int chosen = index;
   if (open) {
     state_->windows.push_back(visible_label(label));
     const Closing closing([this] { state_->windows.pop_back(), ImGui::EndCombo(); });
     for (int i = 0; i < static_cast<int>(choices.size()); ++i) {
       ImGui::PushID(i);
-      if (ImGui::Selectable(choices[i].c_str(), i == index)) chosen = i;
+      if (ImGui::Selectable(imgui_label(choices[i]), i == index)) chosen = i;
       state_->note(choices[i], "choice");
       ImGui::PopID();
     }
@@ -139,16 +143,16 @@ Edited<int> Gui::combo(const std::string& label, int index, std::span<const std:
 
 void Gui::progress(double fraction, const std::string& text, double width) {
   ImGui::ProgressBar(static_cast<float>(std::clamp(fraction, 0.0, 1.0)),
-                     {width > 0 ? static_cast<float>(width) : -FLT_MIN, 0}, text.c_str());
+                     {width > 0 ? pixels(width) : -FLT_MIN, 0}, text.c_str());
   state_->note(text, "progress");
 }
 
 void Gui::plot(const std::string& label, std::span<const double> values, std::optional<double> low,
                std::optional<double> high, double height) {
   std::vector<float> points(values.begin(), values.end());
-  ImGui::PlotLines(label.c_str(), points.data(), static_cast<int>(points.size()), 0, nullptr,
+  ImGui::PlotLines(imgui_label(label), points.data(), static_cast<int>(points.size()), 0, nullptr,
                    low ? static_cast<float>(*low) : FLT_MAX,
-                   high ? static_cast<float>(*high) : FLT_MAX, {0, static_cast<float>(height)});
+                   high ? static_cast<float>(*high) : FLT_MAX, {0, pixels(height)});
   state_->note(label, "plot");
 }
 
@@ -169,16 +173,16 @@ bool Gui::image(const std::string& key, const Picture& picture, bool changed, do
   image.frame = state_->frame;
   const unsigned name = image.texture;
   ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(name)),
-               {static_cast<float>(width), static_cast<float>(height)});
+               {pixels(width), pixels(height)});
   state_->note(key, "image");
   return ImGui::IsItemClicked();
 }
 
 void Gui::separator() { ImGui::Separator(); }
-void Gui::same_line(double spacing) { ImGui::SameLine(0, static_cast<float>(spacing)); }
+void Gui::same_line(double spacing) { ImGui::SameLine(0, pixels(spacing)); }
 void Gui::spacing() { ImGui::Spacing(); }
-void Gui::indent(double width) { ImGui::Indent(static_cast<float>(width)); }
-void Gui::next_width(double width) { ImGui::SetNextItemWidth(static_cast<float>(width)); }
+void Gui::indent(double width) { ImGui::Indent(pixels(width)); }
+void Gui::next_width(double width) { ImGui::SetNextItemWidth(pixels(width)); }
 void Gui::tooltip(const std::string& text) {
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
     ImGui::SetTooltip("%s", text.c_str());
@@ -202,8 +206,7 @@ double Gui::line_height() const { return ImGui::GetFrameHeightWithSpacing(); }
 
 static std::vector<ImVec2> to_points(std::span<const std::array<double, 2>> points) {
   std::vector<ImVec2> result;
-  for (const auto& p : points)
-    result.emplace_back(static_cast<float>(p[0]), static_cast<float>(p[1]));
+  for (const auto& p : points) result.emplace_back(pixels(p[0]), pixels(p[1]));
   return result;
 }
 
@@ -212,7 +215,7 @@ void Gui::line(std::span<const std::array<double, 2>> points, const Rgba& color,
   const std::vector<ImVec2> at = to_points(points);
   ImGui::GetBackgroundDrawList()->AddPolyline(at.data(), static_cast<int>(at.size()), packed(color),
                                               closed ? ImDrawFlags_Closed : ImDrawFlags_None,
-                                              static_cast<float>(width));
+                                              pixels(width));
 }
 
 void Gui::polygon(std::span<const std::array<double, 2>> points, const Rgba& color) {
@@ -223,16 +226,15 @@ void Gui::polygon(std::span<const std::array<double, 2>> points, const Rgba& col
 
 void Gui::circle(double x, double y, double radius, const Rgba& color, double width, bool filled) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const ImVec2 at(static_cast<float>(x), static_cast<float>(y));
+  const ImVec2 at(pixels(x), pixels(y));
   if (filled)
-    list.AddCircleFilled(at, static_cast<float>(radius), packed(color));
+    list.AddCircleFilled(at, pixels(radius), packed(color));
   else
-    list.AddCircle(at, static_cast<float>(radius), packed(color), 0, static_cast<float>(width));
+    list.AddCircle(at, pixels(radius), packed(color), 0, pixels(width));
 }
 
 void Gui::label(double x, double y, const std::string& text, const Rgba& color) {
-  ImGui::GetBackgroundDrawList()->AddText({static_cast<float>(x), static_cast<float>(y)},
-                                          packed(color), text.c_str());
+  ImGui::GetBackgroundDrawList()->AddText({pixels(x), pixels(y)}, packed(color), text.c_str());
 }
 
 }  // namespace clench

@@ -3,6 +3,15 @@ local camera = {}
 
 local least_distance = 1e-4  -- of eye and target [m]
 
+local function is_vector(x) return clench.type(x) == "vec3" end
+
+--- A camera of a script, which may lack fields or have lists for points, as clench.render reads it; errors name what is wrong.
+---@param size number[]  of the screen [pixels]
+function camera.complete(world, size, c)
+  if type(c) == "table" and is_vector(c.eye) and is_vector(c.target) and is_vector(c.up) and type(c.field_of_view) == "number" then return c end
+  return clench.camera(world, {size = {size[1], size[2]}, camera = c})
+end
+
 --- Axes of a camera in the world: right, up, and backwards, from target to eye.
 function camera.axes(c)
   local back = (c.eye - c.target):unit()
@@ -74,6 +83,13 @@ function camera.zoomed(c, factor)
   local nearer = with_eye(c, c.target + offset * factor)
   if c.orthographic then nearer.orthographic = c.orthographic * factor end
   return nearer
+end
+
+--- The camera that shows in a rectangle of a screen what another one shows on a screen of the rectangle's size.
+---@param size number[]  of the whole screen [pixels]
+function camera.within(c, size, x, y, width, height)
+  if width < 1 or height < 1 or width == size[1] and height == size[2] then return c end
+  return camera.panned(camera.zoomed(c, size[2] / height), size, x + (width - size[1]) / 2, y + (height - size[2]) / 2)
 end
 
 --- The camera with a new target, at the same distance and from the same direction.

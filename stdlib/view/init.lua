@@ -1,15 +1,11 @@
 --- The viewer: `clench.view.open` shows a session in a window, `clench.view.offscreen` draws the same without a display, with synthetic input.
+local check = require "clench.view.check"
 local described = require "clench.described"
 local raise = require "clench.raise"
 
-local function check(subject, options)
+local function checked(subject, options, known)
   if not clench.ui then raise(subject .. ": this build has no viewer (CLENCH_VIEWER=OFF)") end
-  if type(options) ~= "table" then raise(("%s: expected a table of options, got %s"):format(subject, described(options))) end
-  for key in pairs(options) do
-    if key ~= "session" and key ~= "size" and key ~= "dark" and key ~= "scale" and key ~= "title" then
-      raise(("%s: unknown key '%s'"):format(subject, tostring(key)))
-    end
-  end
+  return check.options(subject, options, known)
 end
 
 local view = {}
@@ -18,7 +14,8 @@ local view = {}
 ---@param options {session: table, size?: number[], dark?: boolean, scale?: number}  session: of clench.session; size: width and height [pixels]
 ---@return table view
 function view.offscreen(options)
-  check("clench.view.offscreen", options)
+  options = checked("clench.view.offscreen", options, {"session", "size", "dark", "scale"})
+  check.session("clench.view.offscreen", options.session)
   return require "clench.view.viewer" {session = options.session, size = options.size, dark = options.dark, scale = options.scale}
 end
 
@@ -27,9 +24,9 @@ end
 ---@param options? {size?: number[], dark?: boolean, scale?: number, title?: string}  size: width and height [pixels]
 ---@return table view
 function view.open(what, options)
-  check("clench.view.open", options or {})
+  options = checked("clench.view.open", options, {"size", "dark", "scale", "title"})
   local session = clench.type(what) == "world" and clench.session(what) or what
-  options = options or {}
+  check.session("clench.view.open", session)
   return require "clench.view.viewer" {session = session, window = true, size = options.size, dark = options.dark, scale = options.scale, title = options.title}
 end
 
@@ -38,6 +35,12 @@ end
 function view.panel(panel)
   if type(panel) ~= "table" or type(panel.name) ~= "string" or type(panel.draw) ~= "function" then
     raise("clench.view.panel: expected {name = string, draw = function}, got " .. described(panel))
+  end
+  check.options("clench.view.panel", panel, {"name", "draw", "place"})
+  check.text("clench.view.panel", "name", panel.name)
+  local place = panel.place
+  if place ~= nil and place ~= "left" and place ~= "right" and place ~= "bottom" then
+    raise("clench.view.panel: place: expected 'left', 'right' or 'bottom', got " .. described(place))
   end
   require("clench.view.layout").add(panel)
 end

@@ -1,9 +1,13 @@
 --- Synthetic input of a view, like that of a user's mouse and keyboard. Each function returns when all of its input has been handled.
+local check = require "clench.view.check"
 local context = require "clench.view.context"
+local described = require "clench.described"
 local keys = require "clench.view.keys"
 local raise = require "clench.raise"
 local suggest = require "clench.suggest"
 local input = {}
+
+local max_steps = 10000  -- of a drag
 
 -- draws frames until no input waits, and one more in which widgets settle
 local function settle(view)
@@ -22,6 +26,7 @@ local function button(view, down, code) view.ui:input {kind = "button", code = c
 
 --- Presses and releases a mouse button at a pixel.
 function input.click(view, x, y, code)
+  check.numbers("view:click", "x y", x, y)
   move(view, x, y)
   settle(view)
   button(view, true, code)
@@ -32,8 +37,11 @@ end
 
 --- Drags from one pixel to another in steps.
 function input.drag(view, x, y, to_x, to_y, options)
-  local steps = options and options.steps or 10
-  local code = options and options.button or 0
+  check.numbers("view:drag", "x y to_x to_y", x, y, to_x, to_y)
+  options = check.options("view:drag", options, {"steps", "button"})
+  check.integer("view:drag", "steps", options.steps, 1, max_steps)
+  check.integer("view:drag", "button", options.button, 0, 2)
+  local steps, code = options.steps or 10, options.button or 0
   move(view, x, y)
   settle(view)
   button(view, true, code)
@@ -48,6 +56,7 @@ end
 
 --- Presses a shortcut such as "ctrl+z".
 function input.key(view, shortcut)
+  check.text("view:key", "shortcut", shortcut, 100)
   local codes = keys.codes(shortcut)
   for _, code in ipairs(codes) do view.ui:input {kind = "key", code = code, down = true} end
   settle(view)
@@ -57,6 +66,7 @@ end
 
 --- Types a text.
 function input.type(view, text)
+  check.text("view:type", "text", text)
   for _, code in utf8.codes(text) do view.ui:input {kind = "text", text = utf8.char(code)} end
   settle(view)
 end
@@ -75,6 +85,7 @@ end
 
 --- Clicks on the widget with a label.
 function input.click_label(view, label, kind)
+  check.text("view:click_label", "label", label, 1000)
   local item = input.find(view, label, kind)
   if not item.enabled then raise(("view: '%s' is disabled"):format(label)) end
   input.click(view, item.x + math.min(item.width, 24) / 2, item.y + item.height / 2)
@@ -90,7 +101,9 @@ end
 
 --- Chooses the entry of a menu: "Grasp/Auto Grasp".
 function input.menu(view, path)
+  check.text("view:menu", "path", path, 1000)
   settle(view)
+  if not path:find "^[^/]+/." then raise(("view:menu: path: expected a menu and its entry, as in 'Grasp/Auto Grasp', got %s"):format(described(path))) end
   local rest = path
   while not is_shown(view, rest, "menu item") do
     local part, others = rest:match "^([^/]+)/(.+)$"

@@ -12,7 +12,7 @@ local selection = require "clench.view.selection"
 local splitters = require "clench.view.splitters"
 local layout = {}
 
-local bar_height = 36  -- [pixels]
+local menu_height, bar_height, status_height = 24, 36, 28  -- [pixels]
 local tall_share = 0.72  -- fraction of the height of its column
 local user_panels = {}  -- panels that scripts have added, by name and in order
 
@@ -192,23 +192,40 @@ local function draw_question(view, ui)
   autosave.draw(view, ui)
 end
 
+-- where the columns and the bottom row end, as far as they have panels [pixels]
+local function edges_of(view, width, height)
+  local top, bottom = menu_height + bar_height, height - status_height - splitters.size(view, "bottom")
+  local left, right = splitters.size(view, "left"), width - splitters.size(view, "right")
+  local edges = {left = {at = left, from = top, to = bottom}, right = {at = right, from = top, to = bottom}, bottom = {at = bottom, from = left, to = right}}
+  for name in pairs(edges) do
+    if #placed(view, name) == 0 then edges[name] = nil end
+  end
+  return edges
+end
+
+--- The part of the picture that no panel covers.
+---@return number x, number y, number width, number height [pixels]
+function layout.uncovered(view)
+  local width, height = view.ui.size[1], view.ui.size[2]
+  if not view.panels_visible then return 0, 0, width, height end
+  local edges = edges_of(view, width, height)
+  local left, right = edges.left and edges.left.at or 0, edges.right and edges.right.at or width
+  local top, bottom = menu_height + bar_height, edges.bottom and edges.bottom.at or height - status_height
+  return left, top, right - left, bottom - top
+end
+
 --- Draws all panels.
 function layout.draw(view, ui)
   local width, height = ui.size[1], ui.size[2]
-  local menu_height = 24
   menus.draw(view, ui)
   draw_bar(view, ui, menu_height, width)
-  local status_height = 28
   local top = menu_height + bar_height
   local left, right, below = splitters.size(view, "left"), splitters.size(view, "right"), splitters.size(view, "bottom")
   local bottom = height - status_height - below
   draw_column(view, ui, "left", 0, top, left, bottom - top)
   draw_column(view, ui, "right", width - right, top, right, bottom - top)
   draw_bottom(view, ui, 0, bottom, width, below)
-  view.edges = {left = {at = left, from = top, to = bottom}, right = {at = width - right, from = top, to = bottom}, bottom = {at = bottom, from = left, to = width - right}}
-  for name in pairs(view.edges) do
-    if #placed(view, name) == 0 then view.edges[name] = nil end
-  end
+  view.edges = edges_of(view, width, height)
   draw_status(view, ui, height - status_height, width, status_height)
   dialog.draw(view, ui)
   compare.draw(view, ui)

@@ -2,6 +2,7 @@
 local autosave = require "clench.view.autosave"
 local bindings = require "clench.view.bindings"
 local camera = require "clench.view.camera"
+local check = require "clench.view.check"
 local class = require "clench.class"
 local described = require "clench.described"
 local drop = require "clench.view.drop"
@@ -76,7 +77,9 @@ function Viewer:home(all)
     self.camera = self.home_camera
     return
   end
-  self.camera = clench.camera(self.session.world, {size = {self.ui.size[1], self.ui.size[2]}, frame = all and "all" or "contacts"})
+  local x, y, width, height = layout.uncovered(self)
+  local c = clench.camera(self.session.world, {size = {math.max(1, width // 1), math.max(1, height // 1)}, frame = all and "all" or "contacts"})
+  self.camera = camera.within(c, self.ui.size, x, y, width, height)
 end
 
 --- Switches between perspective and orthographic projection.
@@ -106,6 +109,7 @@ end
 local function draw_world(self, ui)
   local world = self.session.world
   if not (world and self.picture_visible) then return end
+  self.camera = camera.complete(world, self.ui.size, self.camera)
   local c = self.camera
   local options = {eye = c.eye, target = c.target, up = c.up, field_of_view = c.field_of_view, orthographic = c.orthographic}
   for name, value in pairs(self.display) do options[name] = value end
@@ -152,15 +156,24 @@ function Viewer:frame()
 end
 
 --- Saves a picture of the view.
----@param options {path: string, camera?: table, panels?: boolean}  camera: that of the view by default; panels: as they are by default
+---@param options {path?: string, camera?: table, size?: number[], panels?: boolean}  camera and size [pixels]: those of the view by default; panels: as they are by default
 ---@return picture
 function Viewer:screenshot(options)
-  local before, visible = self.camera, self.panels_visible
-  if options.camera then self.camera = options.camera end
+  options = check.options("view:screenshot", options, {"path", "camera", "size", "panels"})
+  local ui, before, visible = self.ui, self.camera, self.panels_visible
+  local other = options.size and clench.ui {size = options.size, dark = self.dark, scale = self.scale}
+  local _ <close> = setmetatable({}, {__close = function()
+    self.ui, self.camera, self.panels_visible = ui, before, visible
+    if other then other:close() end
+  end})
+  if options.camera ~= nil then self.camera = options.camera end
   if options.panels ~= nil then self.panels_visible = options.panels end
+  if other then
+    self.ui = other
+    self:frame()  -- in which windows find their sizes
+  end
   self:frame()
   local picture = self.ui:read()
-  self.camera, self.panels_visible = before, visible
   if options.path then picture:save(options.path) end
   return picture
 end
@@ -176,10 +189,15 @@ end
 
 --- The pixel of a point; nil behind the camera.
 ---@param point vec3  in the world [m]
-function Viewer:project(point) return camera.project(self.camera, self.ui.size, point) end
+function Viewer:project(point)
+  return camera.project(self.camera, self.ui.size, check.point("view:project", "point", point))
+end
 
 --- The hit under a pixel: body, point, normal, distance; nil if there is none.
-function Viewer:pick(x, y) return tools.pick(self, x, y) end
+function Viewer:pick(x, y)
+  check.numbers("view:pick", "x y", x, y)
+  return tools.pick(self, x, y)
+end
 
 --- Handles of the current tool on the selection: `name`, the pixel `x`, `y` at which it can be dragged, and `value` and `limits` of the DOF of a joint.
 ---@return table[] handles
@@ -189,6 +207,7 @@ function Viewer:handles() return tools.handles(self) end
 ---@param yaw number  [degrees]
 ---@param pitch number  [degrees]
 function Viewer:orbit(yaw, pitch)
+  check.numbers("view:orbit", "yaw pitch", yaw, pitch)
   self.camera = camera.orbited(self.camera, math.rad(yaw), math.rad(pitch))
   self:frame()
 end
@@ -248,6 +267,7 @@ return function(options)
   }, Viewer)
   local size = options.size or options.window and preferences.size()
   view.ui = clench.ui {size = size, window = options.window, title = options.title, dark = options.dark, scale = options.scale}
+  view.scale = options.scale
   view.panels = layout.panels()
   view:home()
   for _, event in ipairs {"changed", "progress", "result"} do

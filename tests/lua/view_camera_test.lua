@@ -1,6 +1,7 @@
 -- The camera of the viewer and its measuring tool.
 local test, clench = require "test", require "clench"
 local camera = require "clench.view.camera"
+local layout = require "clench.view.layout"
 local measure = require "clench.view.measure"
 
 local function open()
@@ -50,6 +51,29 @@ test("a double click, F and View/Seek make the point under the mouse the center 
   t.close((view.camera.target - point):norm(), 0, 1e-9)
   view:click(320, 160)
   t.equal(view.seeks, nil)
+  view:close()
+end)
+
+test("what the camera points at is framed between the panels", function(t)
+  local session = clench.session()
+  session:open("worlds/barrett_mug.wld", {root = "."})
+  local view = clench.view.offscreen {session = session, size = {1070, 937}}
+  for _, visible in ipairs {true, false} do
+    view.panels_visible = visible
+    view:frame()
+    view:home(true)
+    local x, y, width, height = layout.uncovered(view)
+    t.equal({x, y, width, height}, visible and {264, 60, 542, 659} or {0, 0, 1070, 937})
+    local low, high = {math.huge, math.huge}, {-math.huge, -math.huge}
+    for _, body in ipairs(session.world.bodies) do
+      for _, vertex in ipairs(body.mesh.vertices) do
+        local at = {view:project(body.pose * vertex)}
+        for i = 1, 2 do low[i], high[i] = math.min(low[i], at[i]), math.max(high[i], at[i]) end
+      end
+    end
+    t.ok(low[1] >= x and high[1] <= x + width and low[2] >= y and high[2] <= y + height, ("%.0f to %.0f, %.0f to %.0f"):format(low[1], high[1], low[2], high[2]))
+    t.ok(high[1] - low[1] > 0.6 * width or high[2] - low[2] > 0.6 * height, "it fills the rectangle")
+  end
   view:close()
 end)
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "clench/base/hash.h"
@@ -29,10 +31,11 @@ int make_ui(lua_State* L) {
   const bool window = options.boolean("window", false);
   const std::string title = options.string("title", "Clench");
   options.done();
-  const int width = static_cast<int>(size[0]), height = static_cast<int>(size[1]);
+  const auto pixels = [](double n) { return static_cast<int>(std::clamp(n, -1.0, 1e6)); };
+  const int width = pixels(size[0]), height = pixels(size[1]);
   std::unique_ptr<Screen> screen =
       window ? make_window(width, height, title) : make_offscreen(width, height);
-  if (window && !options.has("scale")) style.scale = screen->scale();
+  if (window && !options.has("scale")) style.scale = std::clamp(screen->scale(), 0.25, 8.0);
   return push_object(L, UiHandle{std::make_shared<Gui>(std::move(screen), style)});
 }
 
@@ -96,6 +99,10 @@ int ui_input(lua_State* L) {
                                {"drop", Kind::drop}},
                               Kind::move);
   event.x = options.number("x", 0), event.y = options.number("y", 0);
+  constexpr double max_position = 1e6;  // [pixels]
+  if (!(std::abs(event.x) <= max_position && std::abs(event.y) <= max_position))
+    fail("{}: x and y: expected -1e6 to 1e6 pixels, got {} and {}", options.subject(), event.x,
+         event.y);
   event.code = options.integer("code", 0);
   event.down = options.boolean("down", false);
   event.text = options.string("text", "");
@@ -206,7 +213,7 @@ Opens a user interface: a window, or a framebuffer that needs no display. clench
 @option window? boolean = false  true: opens a window
 @option title? string = "Clench"  of the window
 @option dark? boolean = false  true: light text on a dark ground
-@option scale? number [> 0]  of fonts and sizes, by default 1, or that of the monitor
+@option scale? number [0.25 to 8]  of fonts and sizes, by default 1, or that of the monitor
 @return ui
 @effect edits
 > u = clench.ui {size = {64, 48}}
@@ -326,8 +333,8 @@ Sets the title of the window.
 Sets theme and sizes from the next frame on.
 @param options table  look; what is not given stays
 @option dark? boolean  true: light text on a dark ground
-@option scale? number [> 0]  of fonts and sizes
-@option font_size? number [pixels, > 0]  at scale 1
+@option scale? number [0.25 to 8]  of fonts and sizes
+@option font_size? number [pixels, > 0]  at scale 1; times scale from 4 to 128
 @effect edits
 > ui:set_style {font_size = 0}  --> error: font_size)"},
     {"take_dropped", guarded<ui_take_dropped>, R"(
