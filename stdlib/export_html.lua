@@ -43,7 +43,7 @@ local function frames_of(world, grasps, recording)
 end
 
 --- Writes a world as a page of HTML, which shows it in 3-D in a browser without a server.
----@param world world  what the page shows
+---@param world world  world to be shown
 ---@param path string  its name ends in .html
 ---@param options? table  contents of the page
 ---@option title? string = "World"  title of the page

@@ -1,4 +1,4 @@
---- A queue of things by time, earliest first; things with equal times in the order of their numbers. Adding and removing take logarithmic time.
+--- A queue of items by time, earliest first; items with equal times in the order of their numbers. Adding and removing take logarithmic time.
 local class = require "clench.class"
 
 local Queue = class "time queue"
@@ -35,13 +35,13 @@ local function sink(self, entry, place)
   put(self, entry, place)
 end
 
---- Adds a thing that is not in the queue.
+--- Adds an item that is not in the queue.
 ---@param thing any
 ---@param at number  its time
----@param number integer  its order among things with the same time
+---@param number integer  its order among items with the same time
 function Queue:add(thing, at, number) rise(self, {thing = thing, at = at, number = number}, #self.heap + 1) end
 
---- Removes a thing, if it is in the queue.
+--- Removes an item, if it is in the queue.
 function Queue:remove(thing)
   local heap, place = self.heap, self.places[thing]
   if not place then return end
@@ -57,7 +57,7 @@ end
 ---@return number?
 function Queue:first_time() return self.heap[1] and self.heap[1].at end
 
---- Removes and returns the first thing if its time is at most `now`.
+--- Removes and returns the first item if its time is at most `now`.
 ---@return any thing, number at  nil: no time has been reached
 function Queue:take(now)
   local first = self.heap[1]

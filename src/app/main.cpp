@@ -327,7 +327,7 @@ static int main_of(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     // --help and --version are not errors
     if (e.get_exit_code() == 0) return app.exit(e);
-    // an unknown word explains what else is missing
+    // an unknown word is usually the reason why something else is missing
     if (!app.remaining(true).empty()) return refuse_extra(app);
     std::string why = e.what();
     // message of CLI11: "--count: 1 required N:INTEGER missing"

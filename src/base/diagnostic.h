@@ -31,7 +31,7 @@ struct Diagnostic {
   std::string text;  ///< without the place
   Severity severity = Severity::warning;
   About about = About::none;
-  int count = 1;  ///< of equal problems of the file, of which this is the first
+  int count = 1;  ///< number of equal problems in the file, of which this is the first
   /// The text is a sentence that begins with the name of the file.
   bool names_file = false;
 

@@ -8,7 +8,8 @@
 
 namespace clench {
 
-/// Each part may be missing. No conversion from a string: no "hand.cfg:31" passes for a file's name.
+/// Each part may be missing. There is no conversion from a string, so that "hand.cfg:31" cannot be
+/// mistaken for a file's name.
 struct Place {
   Place() = default;
   explicit Place(std::string file_name, int line_number = 0, std::string what = {})

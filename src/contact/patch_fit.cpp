@@ -127,7 +127,7 @@ void measure_fit(PointSpan points, const Vector3d& origin, SurfaceFit& fit,
 
 SurfaceFit fit_quadric(PointSpan points, double scale, std::span<const double> weights) {
   if (points.size() < 3)
-    fail("contact patch: a surface needs 3 points at least, got {}", points.size());
+    fail("contact patch: a surface needs at least 3 points, got {}", points.size());
   Matrix3d axes = Matrix3d::Identity();  // columns: the tangent frame
   Vector3d origin = Vector3d::Zero();
   Principal now = principal(0, 0, 0);

@@ -17,7 +17,7 @@ SurfaceFit fit_jet(std::span<const Eigen::Vector3d> points, double scale) {
   using Fitting = CGAL::Monge_via_jet_fitting<Kernel>;
   constexpr size_t coefficients = 15;  // of degree 4
   if (points.size() < coefficients)
-    fail("contact patch: a jet needs {} points at least, got {}", coefficients, points.size());
+    fail("contact patch: a jet needs at least {} points, got {}", coefficients, points.size());
 
   // the fit is at its first point: the one nearest to the contact
   size_t nearest = 0;

@@ -209,7 +209,7 @@ namespace {
 struct RingPiece {
   double radius, width;  // of the ring that it represents
   int in_a, in_b;
-  // a piece along which the gap widens by more than twice this, and by a half, is halved
+  // a piece is halved if the gap widens along it by more than twice this, and by more than a half
   double depth;
 };
 

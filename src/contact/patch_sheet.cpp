@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 static const double min_smooth = std::cos(40 * std::numbers::pi / 180);  // between neighbors
 // around a corner: not a spike
 static const double min_round = std::cos(60 * std::numbers::pi / 180);
-// Of two neighbors, one that extends this much farther from their edge is flat beside a rounded
-// edge, not a chord of a curve.
+// If one of two neighbors extends this many times farther from their common edge, it is flat and
+// next to a rounded edge, not a chord of a curve.
 static constexpr double max_height_ratio = 3;
 // fraction of the radius: triangles within it of the nearest distance count as nearest
 static constexpr double seed_distance = 1e-3;

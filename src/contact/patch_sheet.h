@@ -49,9 +49,9 @@ class PatchSheet {
   /// point of the round surface, by barycentric weights [m]
   Eigen::Vector3d round_point(int triangle, const Eigen::Vector3d& weights);
 
-  /// Length of creases around a site, of the site that has most: edges whose triangles lean from
-  /// each other by more than 40 degrees, or that have only one triangle. Weight one within half the
-  /// radius in the tangent plane, decreasing to zero at the radius [m].
+  /// Length of the creases around a site, the maximum over all sites. A crease is an edge whose
+  /// triangles lean from each other by more than 40 degrees, or that has only one triangle. Weight
+  /// one within half the radius in the tangent plane, decreasing to zero at the radius [m].
   double crease_length() const;
 
  private:

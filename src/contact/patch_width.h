@@ -17,8 +17,8 @@ PatchWidth patch_width(const PatchSheet& sheet, bool is_a);
 /// Half widths of both surfaces.
 PatchWidth operator+(PatchWidth one, const PatchWidth& other);
 
-/// The ellipse may lie anywhere on the surfaces, so it is in no direction wider than they are: it
-/// shrinks uniformly until it fits, and then grows again along either axis as far as it fits.
+/// Shrinks an ellipse uniformly until no direction of it is wider than the surfaces, on which it
+/// may lie anywhere; then enlarges it along either axis as far as it fits.
 ///
 /// axes   unit, columns
 /// grows  false if the axes are arbitrary, as of a circle

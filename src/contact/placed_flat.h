@@ -21,8 +21,8 @@ struct PlacedFlat {
   bool over_disc(const Eigen::Vector3d& p) const;
   /// Points of the rim of the near part of the disc: `count` all around, or one more along an arc.
   std::vector<Eigen::Vector3d> rim(int count) const;
-  /// The part of the line p + s way over the near part of the disc, or beside the segment: from s =
-  /// low to high.
+  /// The part of the line p + s way that lies over the near part of the disc, or next to the
+  /// segment: s from low to high.
   /// returns  false if the line misses it
   bool clip(const Eigen::Vector3d& p, const Eigen::Vector3d& way, double& low, double& high) const;
   /// 1 for a line parallel to the segment, decreasing to 0 at the angle at which clip() begins to

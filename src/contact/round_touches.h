@@ -7,8 +7,9 @@
 
 namespace clench {
 
-/// contact_set() of two shapes, at least one of which has round pieces that count at `where`.
-/// Parts that overlap by more than the inner radius of a round piece have no points.
+/// contact_set() of two shapes, at least one of which has pieces that are treated as round for the
+/// purpose `where`. Parts that overlap by more than the inner radius of a round piece have no
+/// points.
 std::vector<Touch> round_contact_set(const Shape& a, const Shape& b, const Pose& X_AB,
                                      RoundIn where, const TouchOptions& options);
 

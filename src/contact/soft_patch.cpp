@@ -330,7 +330,8 @@ static void press_sharp(const SoftPatch& patch, double force, double c, ContactE
   const auto [moments, unlike] = meeting(patch, depth);
   if (unlike == 0) return;
   const double to_axes = std::sqrt(4 * std::sqrt(std::numbers::pi) * flat / depth);
-  // an ellipse across the directions is not as wide as it is long along both
+  // the axes need not be those of the region: then both widths along them overestimate an ellipse
+  // of its area
   const double product = moments(0, 0) * moments(1, 1);
   const double narrow =
       product > 0 ? std::pow(std::max(0.0, moments.determinant()) / product, 0.25) : 0;

@@ -47,7 +47,8 @@ std::vector<SoftSitePtr> soft_sites(const ShapePtr& a, const ShapePtr& b, const 
                                     const std::vector<Touch>& touches);
 
 struct PatchOptions {
-  std::optional<double> radius = {};  ///< instead of the site's, of the bodies' size, > 0 [m]
+  /// replaces the radius of the site, which follows from the bodies, > 0 [m]
+  std::optional<double> radius = {};
   /// replaces the relative radius in a direction along which the surfaces do not separate, > 0 [m]
   double max_radius = 0.02;
   PatchFit fit = PatchFit::quadric;
@@ -113,12 +114,12 @@ struct ContactEllipse {
 /// If the surfaces do not touch over such an ellipse, as at a corner or an edge, only the region of
 /// certain contact counts: where the gap is no wider than the indentation of flat surfaces under
 /// that force, that is, of R1 = R2 = max_radius. Sharper shapes penetrate deeper. The width of that
-/// region follows from its moments. The transition between the two rules uses a weight w, as a^(1 -
-/// w) b^w, the larger of two: the patch's crease, and how much narrower the region of contact is
-/// than that of the fitted surfaces, 0 if the mean semi-axis is 85 % of theirs, 1 at 65 %. The same
-/// weight moves the indentation to that of the actual gap within the neighborhood, at which the
-/// springs under it sum to the force. It exceeds what the width of the region of certain contact
-/// implies, and the pressure is not that of a paraboloid there.
+/// region follows from its moments. The two rules are blended as a^(1 - w) b^w. The weight w is the
+/// larger of two: the patch's crease, and one for the width of the contact region relative to that
+/// of the fitted surfaces, 0 if the mean semi-axis is 85 % of theirs, 1 at 65 %. The same weight
+/// blends the indentation with that of the actual gap within the neighborhood, at which the springs
+/// under it sum to the force. That indentation exceeds what the width of the region of certain
+/// contact implies, and the pressure is not that of a paraboloid there.
 ///
 /// force   normal, >= 0 [N]
 /// throws  Error if it is negative or not finite

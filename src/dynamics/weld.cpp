@@ -78,7 +78,7 @@ void weld(World& world, Id<Body> object, Id<Body> to) {
 void unweld(World& world, Id<Body> object) {
   DynamicSettings settings = world.dynamic_settings();
   if (settings.welds.erase(object) == 0)
-    fail("'{}' is welded to nothing", excerpt(world.body(object).name));
+    fail("'{}' is not welded", excerpt(world.body(object).name));
   world.set_dynamic_settings(std::move(settings));
 }
 

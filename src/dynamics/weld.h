@@ -8,7 +8,7 @@ namespace clench {
 /// runs move it as a part of that body. Momentum is conserved: if they moved differently before,
 /// they move together afterwards. If they are placed from outside, they stay welded at the new
 /// relative pose.
-/// object  a free body that is welded to nothing
+/// object  a free body that is not welded
 /// to      any other body that is not welded to the object
 /// throws  Error
 void weld(World& world, Id<Body> object, Id<Body> to);

@@ -187,7 +187,7 @@ static void check_reads_back(const std::vector<GraspSpec>& grasps, GraspFormat f
     const size_t i = count++;
     if (i >= grasps.size()) return;
     if (const std::string what = difference(grasps[i], back, format); !what.empty())
-      fail("{}: grasps[{}]: {} would not read back as it is, so nothing is saved", file, i + 1,
+      fail("{}: grasps[{}]: {} would change when read back, so nothing is saved", file, i + 1,
            what);
   };
   try {

@@ -26,7 +26,7 @@ bool is_scene(const fs::path& path) {
 RobotSpec read_robot_tree(const fs::path& path, const std::string& body, FileCache& cache) {
   const std::string file = path.filename().string();
   if (lower_case(path.extension().string()) == ".xacro")
-    fail("{}: xacro is no robot yet; expand it first: xacro {} > robot.urdf", file, file);
+    fail("{}: a xacro file must be expanded first: xacro {} > robot.urdf", file, file);
   const std::string text = read_text(path);
   if (!body.empty()) return read_robot_mjcf(path, body, cache);
   if (xml_root_name(text) == "mujoco") return read_robot_mjcf(path, cache);

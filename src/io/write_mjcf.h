@@ -1,4 +1,4 @@
-// Writes worlds as MJCF scenes: the scene file, and its meshes beside it.
+// Writes worlds as MJCF scenes: the scene file, and its meshes next to it.
 #pragma once
 #include "clench/io/mjcf_write/written_scene.h"
 #include "clench/io/write_world.h"

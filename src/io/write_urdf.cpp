@@ -173,9 +173,10 @@ std::string UrdfText::text() {
                                  excerpt(link.name));
   for (int d = 0; d < static_cast<int>(robot_.dofs.size()); ++d)
     if (plan_.leader_of[d] >= 0 && scale_of(d) != 1)
-      folder_.diagnostics().warn(Place(folder_.file()),
-                                 "DOF {} counts {} times as far in it, as its joint '{}' does", d,
-                                 scale_of(d), excerpt(plan_.joints[plan_.leader_of[d]].name));
+      folder_.diagnostics().warn(
+          Place(folder_.file()),
+          "the values of DOF {} are multiplied by {} in it, to equal those of its joint '{}'", d,
+          scale_of(d), excerpt(plan_.joints[plan_.leader_of[d]].name));
   return out_;
 }
 
@@ -189,8 +190,7 @@ void UrdfText::tell_moved_frames() const {
   if (!moved.empty())
     folder_.diagnostics().warn(
         Place(folder_.file()),
-        "the frames of these links are others in it, on the axes of their joints: {}",
-        some_names(moved));
+        "these links have other frames in it, on the axes of their joints: {}", some_names(moved));
 }
 
 bool UrdfText::has_all_dofs(const char* what) const {

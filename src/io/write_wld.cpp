@@ -11,7 +11,7 @@ namespace clench {
 static std::string in_a_line(const std::string& name) {
   if (name.find_first_of("\r\n") != std::string::npos || name != trim(name) ||
       name.starts_with('#'))
-    fail("the name of a file cannot stand in a line of a .wld: {}", in_quotes(name));
+    fail("the name of a file cannot be written in a line of a .wld: {}", in_quotes(name));
   return name + "\n";
 }
 

@@ -12,7 +12,7 @@ void write_world(const WorldSpec& world, const fs::path& path, const WriteOption
   const std::string ending = lower_case(path.extension().string());
   const std::string file = path.filename().string();
   if (ending != ".wld" && ending != ".xml" && ending != ".lua")
-    fail("{}: expected a world to .xml, .mjcf, .wld or .lua, got {}", file, in_quotes(ending));
+    fail("{}: expected the extension .xml, .mjcf, .wld or .lua, got {}", file, in_quotes(ending));
   check_folder_of(path);
   std::error_code code;
   if (!options.root.empty() && !fs::is_directory(options.root, code))

@@ -30,7 +30,7 @@ class ConeBuilder {
   ConeRange at_most(const std::vector<ConeBlock>& blocks, const Eigen::VectorXd& right);
   /// sum of blocks, (t, u), in the cone |u| <= t; multipliers in z, counted from cones_start()
   ConeRange cone(const std::vector<ConeBlock>& blocks);
-  /// first row of the cones in z, once all of at_most() is there
+  /// first row of the cones in z; valid after the last at_most()
   int cones_start() const { return static_cast<int>(at_most_.right.size()); }
   ConeProgram program() const;
 

@@ -74,7 +74,7 @@ void subtract_square(Eigen::Block<MatrixXd> m, const Eigen::Block<MatrixXd>& b) 
 }
 
 // Replaces m by L of m = L L^T, in the same blocks as Eigen's LLT.
-// returns  is it positive definite?
+// returns  true if it is positive definite
 bool cholesky_in_place(MatrixXd& m) {
   using Llt = Eigen::internal::llt_inplace<double, Eigen::Lower>;
   constexpr Index widest = 128;

@@ -206,7 +206,7 @@ Idle idle_unknowns(const ScaledProgram& scaled) {
 // residuals from which a second start may reach an optimum
 constexpr double nearly = 1e-6;
 
-// distance of half lines: a right side far beyond the others' is seldom active
+// a half line whose right side is this many times the others' is seldom active
 constexpr double far = 100;
 
 std::vector<int> numbers_to(Eigen::Index count) {
@@ -215,7 +215,7 @@ std::vector<int> numbers_to(Eigen::Index count) {
   return out;
 }
 
-// rows of half lines that x = 0 satisfies with a margin
+// half lines (cones of one row) that x = 0 satisfies with a margin
 std::vector<int> roomy_rows(const ScaledProgram& scaled) {
   std::vector<int> out;
   int start = 0;
@@ -264,8 +264,8 @@ ConeSolution solve_part(const ConeProgram& program, const ScaledProgram& scaled,
   return fewer;
 }
 
-// initial distance of half lines: by the size of the right sides or, if they are all zero, by the
-// nearest of them
+// right side above which half lines are omitted at first: by the size of the other right sides or,
+// if these are all zero, by the smallest one of a half line
 double first_limit(const ScaledProgram& scaled, const std::vector<int>& roomy) {
   VectorXd asked(scaled.b.size() + scaled.h.size());
   asked << scaled.b, scaled.h;

@@ -7,7 +7,7 @@ namespace clench {
 /// Primal-dual interior-point method in a homogeneous embedding, so that infeasibility is proved.
 /// Handles redundant, zero and badly scaled rows and columns, and distant half-line constraints,
 /// which are omitted while they are inactive. Results are checked against the original program.
-/// Deterministic to the bit.
+/// Equal programs give bit-identical results.
 ///
 /// throws  Error if sizes do not match or a number is not finite
 /// source  Nesterov & Todd (1997); Mehrotra (1992); Goulart & Chen (2024), Clarabel: an

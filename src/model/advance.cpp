@@ -58,7 +58,7 @@ struct Advancing {
   }
 
   // measures the pair at s.
-  // returns  does it stop the motion there?
+  // returns  true if it stops the motion there
   bool stops(PairBound& watch, double s, int& queries) const {
     const double gap = measure(watch, s, queries);
     const bool first = watch.gap == 0;

@@ -110,9 +110,10 @@ Id<Robot> add_robot(World& world, const RobotSpec& spec, const Pose& X_WB, const
   const bool near = spec.collision_rules.near_pairs_off;
   const auto pairs = switch_off_overlaps(world, id, near ? world.contact_threshold() : 0);
   if (!pairs.empty())
-    diagnostics.note(robot_place(world.robot(id).name),
-                     "these of its bodies overlap{} as it is loaded, and may from now on: {}",
-                     near ? " or touch" : "", describe(world, pairs));
+    diagnostics.note(
+        robot_place(world.robot(id).name),
+        "these of its bodies overlap{} when it is loaded, and never collide from now on: {}",
+        near ? " or touch" : "", describe(world, pairs));
   return id;
 }
 

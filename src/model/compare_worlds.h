@@ -1,4 +1,4 @@
-// Differences between two worlds: what a file format could not store.
+// Differences between two worlds that a file format could not store.
 #pragma once
 #include <string>
 #include <vector>

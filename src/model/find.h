@@ -48,8 +48,8 @@ struct Contact {
   Feature feature, other_feature;
   Friction friction;
   ContactKind kind = ContactKind::point;
-  /// data from which the patch of a soft contact is computed; null for others. Its a is the body of
-  /// the two that was created first, whose pose was X_WA
+  /// data from which the patch of a soft contact is computed; null for others. Its a is the body
+  /// that was created first; the pose of a was X_WA
   SoftSitePtr site = nullptr;
   Pose X_WA = {};
   bool body_is_b = false;

@@ -302,7 +302,7 @@ void World::mount(Id<Robot> child, Id<Robot> parent, int link, Pose X_LB, const 
 
 void World::unmount(Id<Robot> child) {
   const std::optional<Mounting> mounting = robot(child).mounting;
-  if (!mounting) fail("robot '{}' is carried by nobody", excerpt(robot(child).name));
+  if (!mounting) fail("robot '{}' is not carried by another robot", excerpt(robot(child).name));
   // they were one rigid piece
   const Id<Body> last = robot(mounting->parent).links[mounting->link].body;
   set_collision(true, last, robot(child).base);
@@ -499,7 +499,7 @@ void WorldState::make_room_for(const WorldState& other) {
 
 void World::restore(const Snapshot& snapshot) {
   if (snapshot.lineage != lineage_)
-    fail("world: the snapshot was taken of another one, of which this is no clone");
+    fail("world: the snapshot belongs to another world, of which this is no clone");
   // if memory runs out nothing has been changed yet
   state_.make_room_for(snapshot.state);
   // both are copied before they are changed

@@ -219,7 +219,7 @@ class World {
   void find_places(Id<Robot> robot, const Pose& X_WB);
   void set_joints(Id<Robot> robot, const Pose& X_WB, const Eigen::VectorXd& q,
                   std::span<const JointPosition> own);
-  /// throws Error, and moves nothing, when one of them would be no place
+  /// throws Error, and moves nothing, if one of the resulting poses is invalid
   void place(Id<Robot> robot, const Pose& X_WB);
 
   std::shared_ptr<WorldModel> model_ = std::make_shared<WorldModel>();

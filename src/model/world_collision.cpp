@@ -1,4 +1,4 @@
-// Which bodies of a world may collide.
+// Collision settings of a world.
 #include "clench/base/error.h"
 #include "clench/base/watched.h"
 #include "clench/model/world.h"

@@ -1,4 +1,4 @@
-// How the things of a world move.
+// Velocities, motors and welds of a world.
 #include <algorithm>
 #include <atomic>
 #include <memory>
@@ -27,7 +27,7 @@ DynamicState& World::edit_dynamics() {
     shared = std::make_shared<DynamicState>();
   else if (shared.use_count() > 1)
     shared = std::make_shared<DynamicState>(*shared);
-  // who was the last of others to let go of it may have done so in another thread
+  // the last other owner may have released it in another thread
   std::atomic_thread_fence(std::memory_order_acquire);
   DynamicState& state = *shared;
   state.twists.resize(state_.X_WB.size());
@@ -74,13 +74,13 @@ Twist World::carried_twist(Id<Body> id, Id<Body> carrier) const {
   return {of.linear + of.angular.cross(arm), of.angular};
 }
 
-// whatever is welded to something moves as that does
+// a welded object moves with the body that it is welded to
 void World::carry_welded() {
   const auto& welds = dynamic_settings().welds;
   if (welds.empty()) return;
   DynamicState& state = edit_dynamics();
   for (const auto& [object, carrier] : welds) {
-    Id<Body> first = carrier;  // that is itself welded to nothing
+    Id<Body> first = carrier;  // the body at the end of a chain of welds
     for (auto next = welds.find(first); next != welds.end(); next = welds.find(first))
       first = next->second;
     state.twists[object.index] = carried_twist(object, first);

@@ -42,8 +42,8 @@ static void add(Hasher& h, const DofControl& control) {
 
 static void add(Hasher& h, const Gains& gains) { h.add(gains.kp), h.add(gains.kd); }
 
-// how a world moves, but for manifolds and warm starts; one that never did has the same as one at
-// rest
+// hash of the motion, without manifolds and warm starts; a world that never moved has the same hash
+// as one at rest
 static void add_motion(Hasher& h, const World& world) {
   const DynamicState* state = world.dynamics();
   const auto at = [](const auto& list, size_t i) {
@@ -142,7 +142,7 @@ uint64_t World::hash() const {
       h.add(f.statics), h.add(f.kinetic), h.add(f.restitution.value_or(-1));
     }
   for (const auto& [a, b] : settings_->pairs_off) h.add(body(a).name), h.add(body(b).name);
-  // worlds without bits keep their hash
+  // worlds without bits have the same hash as before bits existed
   for (const auto& [id, of] : settings_->collision_bits) {
     h.add(body(id).name);
     h.add(uint64_t{of.first.type} << 32 | of.first.affinity);

@@ -20,15 +20,15 @@ using BodyPair = std::pair<Id<Body>, Id<Body>>;
 /// Every query runs on a pair in one order, so that (a, b) and (b, a) give the same bits.
 inline BodyPair ordered(Id<Body> a, Id<Body> b) { return std::minmax(a, b); }
 
-/// A place for a T and the serial number of who sits there.
+/// An entry for a T, with the serial number of its present or last occupant.
 template <class T>
 struct Slot {
   uint32_t serial = 0;
   bool used = false;
-  T value;  ///< of the last occupant; its name outlives it, for errors
+  T value;  ///< of the last occupant; its name is kept for errors
 };
 
-/// Bodies and robots. Shared by clones and snapshots; a world copies it before a change while it is
+/// Bodies and robots. Clones and snapshots share it; a world copies it before a change if it is
 /// shared.
 struct WorldModel {
   std::vector<Slot<Body>> bodies;
@@ -36,37 +36,37 @@ struct WorldModel {
   std::vector<Id<Body>> body_order;  ///< alive, in creation order
   std::vector<Id<Robot>> robot_order;
   std::string source;
-  std::map<std::string, int> counts;  ///< how often a name was numbered
-  /// Ids by name; an empty id: no body or robot has the name.
+  std::map<std::string, int> counts;  ///< number of names generated from a name
+  /// Ids by name; an empty id: no body or robot has the name now.
   std::map<std::string, Id<Body>, std::less<>> body_names;
   std::map<std::string, Id<Robot>, std::less<>> robot_names;
 
-  uint64_t stamp = 0;  ///< another one after each change, in all worlds of a family
+  uint64_t stamp = 0;  ///< changes with every change, uniquely in all worlds of a family
 
-  size_t bytes() const;  ///< that it takes, about; meshes, which are shared, left out
+  size_t bytes() const;  ///< approximate memory, without meshes, which are shared
 };
 
 /// A named state. Bodies that were removed are omitted.
 using Keyframe = KeyframeOf<Id<Body>, Id<Robot>>;
 
-/// Settings of the world; shared in the same way.
+/// Settings of the world; shared in the same way as the model.
 struct WorldSettings {
   MaterialTable materials;
   double contact_threshold = 1e-4;  ///< [m]
   bool collision_on = true;
   std::set<Id<Body>> switched_off;  ///< bodies that collide with nothing
-  std::set<BodyPair> pairs_off;     ///< as ordered gives them
-  /// Bodies whose bits may keep them apart, and their robots.
+  std::set<BodyPair> pairs_off;     ///< pairs as returned by ordered()
+  /// Collision bits of bodies, and the robots to which these belong.
   std::map<Id<Body>, std::pair<CollisionBits, Id<Robot>>> collision_bits;
-  std::set<BodyPair> pairs_on;  ///< that collide although their bits keep them apart
+  std::set<BodyPair> pairs_on;  ///< pairs that collide regardless of their bits
   std::optional<Camera> camera;
   Eigen::Vector3d gravity{0, 0, -standard_gravity};             ///< in the world frame [m/s^2]
-  std::vector<Keyframe> keyframes;                              ///< of different names
-  std::map<std::string, size_t, std::less<>> keyframe_numbers;  ///< in keyframes, by name
+  std::vector<Keyframe> keyframes;                              ///< with different names
+  std::map<std::string, size_t, std::less<>> keyframe_numbers;  ///< indices in keyframes, by name
   DynamicSettings dynamics;
-  uint64_t stamp = 0;  ///< as the model's
+  uint64_t stamp = 0;  ///< like that of the model
 
-  /// as far as the settings go
+  /// do the settings permit it?
   bool may_collide(Id<Body> a, Id<Body> b) const {
     return collision_on && !switched_off.contains(a) && !switched_off.contains(b) &&
            !pairs_off.contains(ordered(a, b)) && !bits_keep_apart(a, b);
@@ -83,30 +83,31 @@ struct WorldSettings {
   size_t bytes() const;
 };
 
-/// How it is now, in flat arrays. Removed things keep their places.
+/// Current state in flat arrays. Entries of removed bodies and robots remain.
 struct WorldState {
   std::vector<Pose> X_WB;      ///< by the index of the body's id
   std::vector<double> dofs;    ///< of all robots, from Robot::first_dof on [rad or m]
   std::vector<double> joints;  ///< q, from Robot::first_joint on [rad or m]
   /// per joint: true if it is engaged, and at the value given by its DOF
   std::vector<unsigned char> follows_dof;
-  /// null until something moves: then all is at rest, and no time has passed. Copied by who changes
-  /// it while it is shared.
+  /// null until something moves: everything is at rest, and the time is 0. It is copied before a
+  /// change if it is shared.
   std::shared_ptr<DynamicState> dynamics;
 
-  /// so that a copy of the other one allocates nothing
+  /// reserves memory so that copying the other state allocates nothing
   void make_room_for(const WorldState& other);
   size_t bytes() const;
 };
 
-/// A world at some moment.
+/// State, model and settings of a world at one time.
 struct Snapshot {
-  std::shared_ptr<const void> lineage;  ///< one for a world and all clones of it, and of clones
+  /// the same for a world and all its direct and indirect clones
+  std::shared_ptr<const void> lineage;
   std::shared_ptr<const WorldModel> model;
   std::shared_ptr<const WorldSettings> settings;
   WorldState state;
 
-  /// That it may be the last to hold, about.
+  /// Approximate memory of which it may be the last owner.
   size_t bytes() const { return model->bytes() + settings->bytes() + state.bytes(); }
 };
 

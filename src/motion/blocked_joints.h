@@ -18,11 +18,13 @@ struct BlockedJoints {
   std::vector<BodyPair> pairs;  ///< contacts that block; link first
 };
 
-/// bodies  of the robot
-/// speeds  a joint at 0 is never blocked
-/// touching  contacts of these bodies A contact that the joints together separate blocks none. Each
-///           other contact blocks those joints that alone would move one body into the other. A gap
-///           below `closed` [m] also blocks joints that would only slide.
+/// A contact that the joints together separate blocks none. Each other contact blocks those joints
+/// that alone would move one body into the other. A gap below `closed` [m] also blocks joints that
+/// would only slide.
+///
+/// bodies    of the robot
+/// speeds    a joint at 0 is never blocked
+/// touching  contacts of these bodies
 BlockedJoints blocked_joints(const World& world, Id<Robot> robot, const CarriedBodies& bodies,
                              const JointSpeeds& speeds, std::span<const Contact> touching,
                              double closed);

@@ -11,7 +11,7 @@ struct MoveResult {
   double fraction = 0;               ///< fraction of the path covered, in [0, 1]
   bool touched = false;              ///< did a contact end it?
   std::vector<BodyPair> stopped_by;  ///< moved body first
-  /// did the limit on steps end it, while it slid for meters within micrometers?
+  /// true if the limit on steps ended it, while it slid for meters within micrometers
   bool iteration_limit = false;
   int queries = 0;  ///< number of distance queries
 };

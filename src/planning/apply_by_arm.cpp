@@ -19,8 +19,8 @@ void apply_by_arm(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body>
                          {.tolerance = exact, .angle_tolerance = exact}, &world.context());
   if (!found.reached)
     fail(
-        "grasp of {} by {}: '{}' cannot bring the hand there; at best it stands {:.3g} m and "
-        "{:.3g} rad away",
+        "grasp of {} by {}: '{}' cannot bring the hand there; at best it is {:.3g} m and {:.3g} "
+        "rad away",
         world.body(object).name, robot.name, world.robot(arm).name, found.distance, found.angle);
   if (found.dofs != before) world.set_dofs(arm, found.dofs);
   try {

@@ -15,7 +15,8 @@ namespace {
 constexpr double spacing = 0.5, extent = 2.5;
 constexpr int leaning_sides = 6;
 constexpr double leaning = 0.4;  // [rad]
-// standard deviation of the weights of adjacent lines, relative to the radius
+// standard deviation of the bell curve by which a line counts the lines near it, relative to the
+// radius
 constexpr double beside = 0.5;
 constexpr double off_middle = 0.02;  // penalty of a line one radius away from the middle
 

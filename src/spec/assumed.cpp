@@ -42,12 +42,12 @@ void tell_assumed(std::span<const BodySpec* const> bodies, const Place& place,
                             assumed.mass, assumed.material));
   note(weightless, fmt::format("no mass is given; {} kg is assumed", assumed.mass));
   note(of_nothing, fmt::format("no material is given; {} is assumed", assumed.material));
-  note(uniform, "no inertia is given; that of a solid of one density is assumed");
+  note(uniform, "no inertia is given; that of a uniform solid is assumed");
   if (!balls.empty())
-    diagnostics.suspected(
-        place,
-        "no inertia is given, and the surface bounds no solid; it is that of a ball around it{}",
-        those(balls));
+    diagnostics.suspected(place,
+                          "no inertia is given, and the surface bounds no solid; that of a ball "
+                          "around it is assumed{}",
+                          those(balls));
 }
 
 }  // namespace clench

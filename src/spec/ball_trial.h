@@ -26,7 +26,7 @@ class BallTrial {
   /// touches the open hand; empty: it passes by.
   std::optional<Eigen::Vector3d> touch(const Eigen::Vector3d& from,
                                        const Eigen::Vector3d& direction) const;
-  /// How well the hand surrounds the ball after each DOF has closed until its links touch it: the
+  /// Quality of the hold on the ball, after each DOF has closed until its links touch it: the
   /// minimum, over all directions, of the cosine between the direction and the contact nearest to
   /// it, minus friction. -1 .. 1
   double held(const Eigen::Vector3d& center) const;

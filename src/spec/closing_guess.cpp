@@ -17,7 +17,7 @@ constexpr double along = 0.8;  // axes or directions with a larger cosine count 
 // relative to the travel of the tips: smaller approaches do not count
 constexpr double hardly = 0.02;
 constexpr double sideways = 0.15;  // the same for a DOF that swings a finger sideways
-// relative to the tips' distance from the center: a shorter travel is a roll
+// relative to the tips' distance from the center: a DOF with a shorter travel only rolls the finger
 constexpr double rolling = 0.02;
 // relative to the range: if its middle is farther from 0, the DOF does not swing
 constexpr double lopsided = 0.1;

@@ -56,13 +56,13 @@ struct GraspSpec {
   std::string hand_file = {}, object_file = {};  ///< files of hand and object; empty: unknown
   /// shapes, links and joints of the hand, and surface of the object; empty: unknown
   std::string hand_fingerprint = {}, object_fingerprint = {};
-  std::string settings_fingerprint = {};  ///< of edges, rho and the other options of its measures
-  std::string engine_version = {};        ///< of the program that measured it
-  std::optional<Pose> X_OH = {};  ///< the hand's base in the object; empty: assembled by hand
-  std::vector<double> dofs = {};  ///< values of all, or of the named ones [rad or m]
-  std::vector<std::string> dof_names = {};    ///< empty: unknown, and `dofs` has all DOFs in order
-  std::vector<std::string> dof_units = {};    ///< "rad" or "m", as many as names
-  std::vector<double> joints = {};            ///< positions of all [rad or m]
+  std::string settings_fingerprint = {};    ///< of edges, rho and the other options of its measures
+  std::string engine_version = {};          ///< of the program that measured it
+  std::optional<Pose> X_OH = {};            ///< the hand's base in the object; empty: unknown
+  std::vector<double> dofs = {};            ///< values of all, or of the named ones [rad or m]
+  std::vector<std::string> dof_names = {};  ///< empty: unknown, and `dofs` has all DOFs in order
+  std::vector<std::string> dof_units = {};  ///< "rad" or "m", as many as names
+  std::vector<double> joints = {};          ///< positions of all [rad or m]
   std::vector<std::string> joint_names = {};  ///< one name per joint, or empty: unknown
   std::vector<std::string> joint_units = {};  ///< "rad" or "m", as many as names
   /// position + offset is the value of a joint in the hand's own file; empty: all are 0

@@ -72,7 +72,7 @@ static void find_fingers(HandTree& hand) {
   const RobotSpec& robot = hand.robot;
   std::vector<int> tips = ends(robot);
   std::erase_if(tips, [&](int tip) { return joints_below(robot, -1, tip).empty(); });
-  // parts fixed to the palm are no fingers, and without them the palm may be farther out
+  // parts fixed to the palm are not fingers; without them the palm may be a link farther out
   for (size_t before = tips.size() + 1; tips.size() > 1 && tips.size() < before;) {
     before = tips.size();
     hand.palm = tips.front();

@@ -34,7 +34,7 @@ void check_inertia(const Eigen::Matrix3d& per_mass, std::string_view subject) {
       fail("{}: inertia: expected a symmetric matrix, got one that is not", subject);
     case InertiaFault::not_definite:
       fail(
-          "{}: inertia: expected a positive definite matrix with moments of {:g} to {:g} m^2 a "
+          "{}: inertia: expected a positive definite matrix with moments of {:g} to {:g} m^2 per "
           "kilogram, got another",
           subject, min_moment, max_moment);
     case InertiaFault::breaks_triangle: {

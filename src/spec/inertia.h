@@ -20,9 +20,7 @@ enum class InertiaFault {
 /// For an inertia about the center of mass, per mass [m^2].
 InertiaFault inertia_fault(const Eigen::Matrix3d& per_mass);
 
-/// throws Error  "body 'cup': inertia: expected no moment above the sum of the others, got one of
-///               50
-///         times that sum"
+/// throws Error  "body 'cup': inertia: expected no moment above the sum of the others, got ..."
 void check_inertia(const Eigen::Matrix3d& per_mass, std::string_view subject);
 
 /// The same axes and the same largest moment; the others are raised equally until their sum equals
@@ -43,7 +41,8 @@ Inertial repair_inertia(Eigen::Matrix3d& per_mass);
 
 /// Warning for an inertia whose other moments were raised.
 inline constexpr const char* raised_moments =
-    "inertia that no body has, as one moment exceeds the sum of the others; these are raised to it";
+    "impossible inertia, as one moment exceeds the sum of the others; these are increased to equal "
+    "it";
 
 /// The symmetric part of `rows` [m^2], repaired; empty if it is not an inertia: that of the shape
 /// is to be used. All three cases are reported, with `place` in front.

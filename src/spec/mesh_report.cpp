@@ -73,7 +73,7 @@ std::vector<std::string> describe(const MeshReport& report, const Shape& shape) 
   out.push_back(fmt::format("volume {:.6g} m^3, center of mass ({:.6g}, {:.6g}, {:.6g}) m",
                             solid.volume, c.x(), c.y(), c.z()));
   out.push_back(fmt::format(
-      "inertia of each kg: xx {:.4g}, yy {:.4g}, zz {:.4g}, xy {:.4g}, xz {:.4g}, yz {:.4g} m^2",
+      "inertia per kg: xx {:.4g}, yy {:.4g}, zz {:.4g}, xy {:.4g}, xz {:.4g}, yz {:.4g} m^2",
       I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)));
   return out;
 }

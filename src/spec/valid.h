@@ -77,15 +77,14 @@ void check_each(const Quantity& quantity, std::initializer_list<NamedNumber> num
 
 /// Checks that a position is within the bounds of coordinates, and a quaternion is unit.
 bool is_place(const Pose& X);
-/// throws Error  "robot 'arm': expected a position within 1e+09 m of the origin, got (0, 0,
-///               1e+308)"
+/// throws Error  "robot 'arm': expected a position within 1e+09 m of the origin, got ..."
 void check_place(const Pose& X, std::string_view subject);
 
 // --- names ---
 
 inline constexpr size_t max_name_length = 250;  ///< bytes, the limit of file systems
 
-/// Why a text is not a valid name of a body, robot, link, DOF or material: it is longer than
+/// Reason why a text is not a valid name of a body, robot, link, DOF or material: it is longer than
 /// max_name_length, has control characters or is not UTF-8; empty if it is valid.
 std::string name_fault(std::string_view name);
 /// throws Error  "world:add_object: name: expected no control characters, got 'a?b'"

@@ -121,7 +121,7 @@ struct WorldSpec {
   std::vector<OwnFriction> frictions;       ///< of further materials, named by material_name()
   std::optional<CollisionSpec> collision;   ///< absent: given by the robots
   std::vector<std::array<PartRef, 2>> never_meet;  ///< in addition to those of the robots
-  /// pairs with one part without bits may collide
+  /// a part that is not listed may collide with all others
   std::vector<std::pair<PartRef, CollisionBits>> collision_bits;
   std::vector<std::array<PartRef, 2>> always_meet;  ///< whatever their bits
   bool collision_on = true;                         ///< false: nothing collides

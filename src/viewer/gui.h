@@ -80,7 +80,7 @@ class Gui {
   /// Adds input, applied by the next frames: at most one change of a button or key per frame.
   void add(InputEvent event);
   /// Collects input of the window system.
-  /// returns  is there input that no frame has applied?
+  /// returns  true if there is input that no frame has applied yet
   bool poll();
   /// dt  time since the last frame, > 0 [s]
   void begin(double dt);

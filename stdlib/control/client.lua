@@ -1,5 +1,5 @@
---- A client of a server: what it sends arrives and waits to be served, replies are sent without waiting, several at once if further requests wait. Its field `serve`, a function of server and client,
---- handles one line, request or frame that has arrived, and returns false if there is none; its field `wrap` makes a message of a reply.
+--- A client of a server: its requests are received and wait to be served; replies are sent without waiting, several at once if further requests wait. Its field `serve`, a function of server and client,
+--- handles one line, request or frame that has arrived, and returns false if there is none; its field `wrap` turns a reply into a message.
 local class = require "clench.class"
 local loop = clench.loop
 
@@ -7,7 +7,7 @@ local Client = class "client"
 
 function Client:__tostring() return ("client %d, %s"):format(self.number, self.port.name) end
 
--- beyond so many bytes that wait to be handled, no more are read [bytes]
+-- no more is read while so much waits to be handled [bytes]
 local function max_waiting(self) return self.port.max_line + (1 << 16) end
 
 local function stop_reading(self)
@@ -33,12 +33,12 @@ local function start_reading(self)
   end
 end
 
---- Reads on, where reading stopped because too much waited.
+--- Resumes reading, which stops while too many bytes wait.
 function Client:read_on()
   if not self.watch and self.port.stream:size() <= max_waiting(self) then start_reading(self) end
 end
 
---- Holds further requests back until `release`, as a task answers one.
+--- Holds back further requests until `release`, while a task answers one.
 function Client:hold()
   self:flush()
   self.is_held = true
@@ -51,22 +51,22 @@ end
 
 local max_gathered = 1 << 14  -- replies that are sent together [bytes]
 
--- sends what was gathered; returns as port:send
+-- sends the gathered replies; returns as port:send
 local function send_gathered(self)
   local bytes = table.concat(self.gathered)
   self.gathered, self.gathered_size = {}, 0
   return self.port:send(bytes)
 end
 
---- Sends what was gathered.
+--- Sends the gathered replies.
 function Client:flush()
   self.gathers = false
   if self.gathered_size == 0 or self.is_closed then return end
   local ok, why = send_gathered(self)
-  if not ok then self:close(why == "full" and "it does not read" or why) end
+  if not ok then self:close(why == "full" and "it does not receive" or why) end
 end
 
---- Sends bytes; while `gathers` is set, with those that follow. A client that does not read what it is sent is dropped.
+--- Sends bytes; while `gathers` is set, with those that follow. A client that does not receive its replies is disconnected.
 function Client:send_raw(bytes)
   if self.is_closed then return end
   self.gathered[#self.gathered + 1] = bytes

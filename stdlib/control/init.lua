@@ -1,3 +1,3 @@
 -- stdlib/control/init.lua
---- Control from outside: a server that other programs command.
+--- Control by other programs: a server that executes their commands.
 return require "clench.lazy"("control", {"server"})

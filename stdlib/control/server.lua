@@ -27,7 +27,7 @@ end
 
 local methods = {"GET", "POST", "HEAD", "PUT", "DELETE", "OPTIONS", "CONNECT", "PATCH", "TRACE"}
 
--- a page in a browser can make it send such lines to any port
+-- a web page can make a browser send such lines to any port
 local function looks_like_http(line)
   for _, method in ipairs(methods) do
     if line:find("^" .. method .. "%s") then return true end
@@ -50,7 +50,7 @@ local text_protocol = {answer = answer_text}
 
 function text_protocol.refuse_long(client) client:send(("Error: a line has more than %d bytes\n"):format(client.port.max_line)) end
 
--- the first line decides which protocol a client speaks
+-- the first line determines the protocol of a client
 local function protocol_of(client, line)
   client.protocol = client.protocol or line:find "^%s*[%[{]" and rpc or text_protocol
   return client.protocol
@@ -83,7 +83,7 @@ local function serve_one(self, client)
   return some
 end
 
--- the same; a fault of ours ends the connection of the client that has met it, not the server
+-- the same; an internal error ends the connection of the client that caused it, not the server
 local function serve_safely(self, client)
   local ok, some = pcall(serve_one, self, client)
   if ok then return some end
@@ -100,7 +100,7 @@ local function serve_each(self, clients)
   return some
 end
 
--- Serves clients in the order in which they connected, a line of each in turn, until no lines are left.
+-- Serves clients in the order of their connections, one line of each in turn, until no lines are left.
 local function serve(self)
   local count, clients
   local pause = new_turn(function()
@@ -128,7 +128,7 @@ local function remove(self, client)
   if self.on_close then self.on_close(client) end
 end
 
--- a client that has not said in time which protocol it speaks, or hello
+-- a client that has not identified itself in time, by the text protocol or by `hello`
 local function find_silent(self)
   for _, client in ipairs(self.clients) do
     local is_known = client.is_authorized or client.protocol == text_protocol or client.is_finishing
@@ -136,12 +136,12 @@ local function find_silent(self)
   end
 end
 
--- serve: of the client's protocol
+-- serve: function that serves a client of this protocol
 local function add(self, port, serve)
   local silent = #self.clients >= self.max_clients and find_silent(self)
   if silent then silent:close "another client took its place" end
   if #self.clients >= self.max_clients then
-    local words = ("Error: the server has %d clients and takes no more\n"):format(self.max_clients)
+    local words = ("Error: the server has %d clients and accepts no more\n"):format(self.max_clients)
     port:send(serve == serve_line and words or web.busy(words))
     return port:close()
   end
@@ -152,7 +152,7 @@ local function add(self, port, serve)
   if self.on_connect then self.on_connect(client) end
 end
 
--- the one client of standard input and output: the program that has started us; when it is gone, the server ends
+-- the one client of standard input and output: the program that has started this one; when it disconnects, the server ends
 local function add_parent(self)
   self.name, self.max_clients = "standard input and output", 1
   local close = self.on_close
@@ -180,7 +180,7 @@ local function accept_clients(self, listener, serve)
     local ok, port, why = pcall(listener.accept, listener)
     if not ok then
       if is_stopped(port) then error(port, 0) end
-      loop.sleep(0.1)  -- no descriptor is left: until one is closed
+      loop.sleep(0.1)  -- out of descriptors: waits until one is closed
     elseif port then
       add(self, port, serve)
     elseif why == "closed" then
@@ -234,7 +234,7 @@ local function read_folder(o)
   return folder
 end
 
--- the port of the live page, and what it needs
+-- port and settings of the live page
 local function read_http(o, server, host)
   local http, control, timeout = o:get "http", o:get "control", o:get "http_timeout"
   if http == nil then return nil end
@@ -255,7 +255,7 @@ local function read_options(options)
   server.mcp = o:get "mcp"
   local http = read_http(o, server, host)
   o:done()
-  if server.mcp and not stdio then o:fail "mcp: expected stdio, too" end
+  if server.mcp and not stdio then o:fail "mcp: requires stdio" end
   if stdio then
     if path ~= nil or host ~= nil or http then o:fail "stdio: expected either stdio, or a path, host, port or http" end
     server.token = nil
@@ -265,26 +265,26 @@ local function read_options(options)
   return server, where, http
 end
 
---- A server through which other programs command a world, as long as the loop runs: by JSON-RPC 2.0, and on loopback by the text protocol
---- of GraspIt!, too. The first byte of a client decides.
+--- A server by which other programs control a world while the loop runs: by JSON-RPC 2.0, and on loopback also by the text protocol
+--- of GraspIt!. The first byte from a client selects the protocol.
 ---@param options table
----@option world? world  or a session
----@option session? session  whose commands clients run
+---@option world? world  the controlled world; or a session
+---@option session? session  the session whose commands clients run
 ---@option port? integer [0 to 65535] = 4765  0: the system chooses one, the server's field `port`
 ---@option host? string = "127.0.0.1"  address on which it listens
 ---@option path? string  of a Unix socket, instead of host and port
 ---@option stdio? boolean = false  true: JSON-RPC over standard input and output with the program that has started this one, without a token
----@option mcp? "read"|"control"  over standard input and output the Model Context Protocol instead; "read": tools that change nothing, "control": all
----@option token? string|boolean  the secret of JSON-RPC clients; one is made by default, the server's field `token`. false, on loopback: none
+---@option mcp? "read"|"control"  the Model Context Protocol over standard input and output, instead; "read": only tools that change nothing; "control": all
+---@option token? string|boolean  the secret of JSON-RPC clients; by default it is generated, and is the server's field `token`. false, only on loopback: none
 ---@option http? integer [0 to 65535]  port of the live page, which shows the world in a browser; none by default. 0: the system chooses one, the server's field `http`
 ---@option control? boolean = false  true: the live page moves DOFs, and takes all other requests; otherwise it shows the world only
 ---@option http_timeout? number [0.1 to 3600, s] = 30  after which a browser that sends no request, or answers no ping, is dropped
 ---@option folder? string  below which requests may read and write files; none by default
----@option max_clients? integer [1 to 1000] = 64  connected at one time
+---@option max_clients? integer [1 to 1000] = 64  maximum number of connected clients
 ---@option max_line? integer [1000 to 268435456, bytes] = 1048576  longest request
----@option max_queue? integer [1000 to 1073741824, bytes] = 4194304  replies that a client may leave unread before it is dropped
+---@option max_queue? integer [1000 to 1073741824, bytes] = 4194304  maximum size of replies that a client has not received, beyond which it is disconnected
 ---@option on_connect? function  called with each new client
----@option on_close? function  called with each client that has gone; its field `reason` says why
+---@option on_close? function  called with each client that has disconnected; its field `reason` states why
 ---@return server server # `port`, `http`, `url` (of the live page), `token`, `session`, `close()`
 ---@effect edits
 --- > server = clench.control.server {world = world, port = 0}

@@ -1,4 +1,4 @@
---- Secrets by which clients of a server show that they may command it.
+--- Secrets by which clients of a server prove that they may control it.
 local raise = require "clench.raise"
 local token = {}
 
@@ -12,7 +12,7 @@ function token.new()
   return (bytes:gsub(".", function(byte) return ("%02x"):format(byte:byte()) end))
 end
 
---- Are two strings equal? The time that this takes does not depend on where they differ.
+--- Are two strings equal? The duration of the comparison does not depend on the position of a difference.
 function token.equal(given, secret)
   if type(given) ~= "string" then return false end
   local difference = #given ~ #secret

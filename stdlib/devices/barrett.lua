@@ -12,11 +12,11 @@ local names = {"spread", "finger 1", "finger 2", "finger 3"}
 local max_counts = {3150, 17800, 17800, 17800}
 local max_angles = {math.pi, 2.51327, 2.51327, 2.51327}  -- [rad]
 local all = "123S"               -- the order in which the hand reports values
-local order_of_all = {4, 1, 2, 3}  -- of each DOF, its place there
+local order_of_all = {4, 1, 2, 3}  -- position of each DOF in that order
 
 function Barrett:__tostring() return "Barrett hand at " .. self.port.name end
 
--- one exchange: the reply between echo and prompt; nil and why there is none
+-- one exchange: the reply between echo and prompt; nil and the reason if there is none
 local function exchange(self, command, seconds)
   self.port:discard()
   local ok, why = self.port:write(command .. "\r", seconds)
@@ -24,12 +24,12 @@ local function exchange(self, command, seconds)
   local text
   text, why = self.port:read_until("=> ", seconds)
   if not text then return nil, why end
-  -- another echo: the hand has understood another command, or the reply is damaged
+  -- a different echo: the hand has received another command, or the reply is damaged
   if text:sub(1, #command) ~= command or text:find "[^\r\n\t -~]" then return nil, "damaged" end
   return text:sub(#command + 1)
 end
 
--- Sends a command until it is answered; is_once: its repetition would do more than it.
+-- Sends a command until it is answered; is_once: it must not be repeated, as a repetition would have a further effect.
 local function ask(self, command, seconds, is_once)
   for _ = 1, is_once and 1 or self.attempts do
     local reply, why = exchange(self, command, seconds)
@@ -43,7 +43,7 @@ local function ask(self, command, seconds, is_once)
   device.fail(subject, self.port, "timeout", command)
 end
 
--- Numbers of a reply, within 0 to their largest values. No checksum protects them: they count once two replies agree.
+-- Numbers of a reply, from 0 to their maxima. No checksum protects them: they are accepted once two replies agree.
 local function ask_numbers(self, command, count, largest)
   local seen = {}
   for _ = 1, self.attempts do
@@ -66,7 +66,7 @@ local function counts_of(angles)
   return counts
 end
 
--- motors of the arguments, as the letters before a command: all without any
+-- letters of the motors in the arguments, which precede a command; without arguments those of all motors
 local function prefix_of(method, motors)
   if motors == nil then return "" end
   if type(motors) ~= "string" or not motors:find "^[123S]+$" then
@@ -75,22 +75,22 @@ local function prefix_of(method, motors)
   return motors
 end
 
---- Initializes the hand: it finds the ends of all motors. The spread then moves smoothly.
+--- Initializes the hand: it finds the ends of travel of all motors. Afterwards the spread moves smoothly.
 function Barrett:initialize()
   ask(self, "HI", self.move_timeout)
   for _, setting in ipairs {"SAMPLE 50", "ACCEL 1", "MCV 18", "MOV 18"} do ask(self, "SFSET " .. setting, self.timeout) end
 end
 
---- Brings all motors, or some, to their home positions.
+--- Moves all motors, or the given ones, to their home positions.
 function Barrett:home(motors) ask(self, prefix_of("home", motors) .. "HOME", self.move_timeout) end
 
---- Opens all motors, or some, until something stops them.
+--- Opens all motors, or the given ones, until something stops them.
 function Barrett:open(motors) ask(self, prefix_of("open", motors) .. "O", self.move_timeout) end
 
---- Closes all motors, or some, until something stops them.
+--- Closes all motors, or the given ones, until something stops them.
 function Barrett:close_fingers(motors) ask(self, prefix_of("close_fingers", motors) .. "C", self.move_timeout) end
 
---- Opens or closes by some counts. A command that is not answered is not repeated, as it may have been carried out.
+--- Opens or closes by a number of counts. A command that is not answered is not repeated, because it may have been executed.
 ---@param counts integer  > 0 closes, < 0 opens
 function Barrett:increment(counts, motors)
   local whole = type(counts) == "number" and math.tointeger(counts)
@@ -98,7 +98,7 @@ function Barrett:increment(counts, motors)
   ask(self, ("%s%s %d"):format(prefix_of("increment", motors), whole > 0 and "IC" or "IO", math.abs(whole)), self.move_timeout, true)
 end
 
---- Closes with constant torque, or opens.
+--- Closes or opens with constant torque.
 ---@param direction "close"|"open"
 function Barrett:torque(direction, motors)
   if direction ~= "close" and direction ~= "open" then raise "barrett:torque: direction: expected 'close' or 'open'" end
@@ -108,7 +108,7 @@ end
 --- Switches the motors off.
 function Barrett:stop(motors) ask(self, prefix_of("stop", motors) .. "T", self.timeout) end
 
---- Moves all motors together. Positions are checked here, set, read back, and only then is the hand told to move.
+--- Moves all motors together. Positions are checked, sent and read back before the motion is started.
 ---@param angles number[]  spread and fingers [rad]
 function Barrett:move(angles)
   device.check_numbers("barrett:move", angles, names, {0, 0, 0, 0}, max_angles, "rad")
@@ -125,7 +125,7 @@ function Barrett:move(angles)
   ask(self, all .. "M", self.move_timeout)
 end
 
---- Where the motors are: spread and fingers.
+--- Positions of the motors: spread and fingers.
 ---@return number[] [rad]
 function Barrett:read()
   local counts = ask_numbers(self, all .. "FGET P", 4, {17800, 17800, 17800, 3150})
@@ -134,7 +134,7 @@ function Barrett:read()
   return angles
 end
 
---- Which fingers have broken away, and where.
+--- For each finger: has it broken away, and at which position?
 ---@return {broken: boolean, position: number}[]  of the three fingers [rad]
 function Barrett:breakaways()
   local detected = ask_numbers(self, "123FGET BD", 3, {1, 1, 1})
@@ -153,14 +153,14 @@ end
 Barrett.__close = function(self) self:close() end
 Barrett.__gc = function(self) device.send_last(self.port, "T\r") end
 
---- A Barrett hand BH8-262. Angles are checked before they are sent. When the program ends, the motors are switched off; a program that is
---- killed leaves the hand as it is: it has no watchdog.
+--- Driver of a Barrett hand BH8-262. Angles are checked before they are sent. When the program ends, the motors are switched off; but if it is
+--- killed, the hand stays as it is, because it has no watchdog.
 ---@param options table
 ---@option port string|port  path of its serial line, or a port
 ---@option baud? integer [bit/s, 1 to 10000000] = 9600
----@option timeout? number [s, > 0, <= 3600] = 0.5  for answers to questions and settings
+---@option timeout? number [s, > 0, <= 3600] = 0.5  for replies to queries and settings
 ---@option move_timeout? number [s, > 0, <= 3600] = 20  for the ends of motions
----@option attempts? integer [1 to 1000] = 10  repetitions of what is not answered correctly
+---@option attempts? integer [1 to 1000] = 10  maximum number of attempts to get a correct reply
 ---@return barrett hand # `initialize`, `move`, `read`, `open`, `close_fingers`, `home`, `increment`, `torque`, `stop`, `breakaways`, `close`
 ---@effect edits
 --- > simulated = clench.devices.simulated.barrett {}

@@ -4,11 +4,11 @@ local new_options = require "clench.options"
 local raise = require "clench.raise"
 
 local subject = "devices.calibrate"
-local max_rounds = 10  -- in which outliers are looked for
+local max_rounds = 10  -- maximum number of rounds in which outliers are removed
 
 local function is_number(x) return type(x) == "number" and x - x == 0 end
 
--- samples with as many sensors each
+-- samples, all with the same number of sensors
 local function check_samples(o)
   local samples = o:raw "samples"
   if type(samples) ~= "table" or #samples == 0 then o:expected("samples", "a list of {sensors, dofs}", samples) end
@@ -80,7 +80,7 @@ local function median(list)
   return list[(#list + 1) // 2]
 end
 
--- samples whose residuals are not beyond `limit` times the spread of all, which the median gives
+-- samples whose residuals are at most `limit` times the standard deviation, as estimated from the median
 local function without_outliers(samples, all, limit, d, sensors, slopes, intercept)
   local sizes = {}
   for n, i in ipairs(all) do sizes[n] = math.abs(residual(samples[i], d, sensors, slopes, intercept)) end
@@ -131,7 +131,7 @@ end
 ---@option samples table[]  {sensors = raw values, dofs = values by the numbers of DOFs [rad]}; DOFs that a sample leaves out are fitted to the others
 ---@option sensors_of table  lists of sensors by the numbers of DOFs
 ---@option ridge? number [>= 0] = 0  penalty on squared slopes, where sensors vary little
----@option outliers? number [> 0]  samples are left out whose residual is more than so many standard deviations, as the median tells them
+---@option outliers? number [> 0]  samples are left out if their residual exceeds this number of standard deviations, as estimated from the median
 ---@return table calibration # `slopes`, `intercepts`, as of `clench.files.glove_calibration`; `report`, by DOF: `samples`, `outliers`, `rms`, `max`, `sigma` (standard deviation of the noise) [rad]
 ---@effect reads
 --- > samples = {{sensors = {50, 9}, dofs = {0}}, {sensors = {150, 9}, dofs = {1.5}}}

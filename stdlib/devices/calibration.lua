@@ -5,7 +5,7 @@ local calibration = {}
 
 local function is_finite(x) return type(x) == "number" and x - x == 0 end
 
---- Raises an error if a value is no calibration.
+--- Raises an error if a value is not a calibration.
 ---@param subject string  "devices.glove_map"
 ---@param hint? string  ", or ...": what else may be given
 ---@return integer count  of sensors

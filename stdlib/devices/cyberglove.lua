@@ -12,7 +12,7 @@ local record_size = 24  -- the echo, 22 sensors, and a byte 0
 
 function Glove:__tostring() return "CyberGlove at " .. self.port.name end
 
--- the answer to a command, up to its byte 0; nil and why there is none
+-- the answer to a command, up to its byte 0; nil and the reason if there is none
 local function exchange(self, command)
   self.port:discard()
   local ok, why = self.port:write(command, self.timeout)
@@ -45,7 +45,7 @@ function Glove:is_ready()
   end)[1]
 end
 
---- Raw values of the 22 sensors, 1 to 255. A record has no checksum: with `readings` > 1 each value is the median of so many records.
+--- Raw values of the 22 sensors, 1 to 255. A record has no checksum: with `readings` > 1 each value is the median of that number of records.
 ---@return integer[]
 function Glove:read()
   local records = {}
@@ -61,9 +61,9 @@ local function range_of(limits, d)
   return range
 end
 
---- Values of DOFs by a calibration: DOF = intercept + slopes * raw.
----@param calibration {slopes: number[][], intercepts: number[]}  as of `clench.files.glove_calibration` or `hand.glove`
----@param limits? number[][]  as of hand.dof_limits; values are clamped to them
+--- Values of DOFs computed by a calibration: DOF = intercept + slopes * raw.
+---@param calibration {slopes: number[][], intercepts: number[]}  in the form of `clench.files.glove_calibration` or `hand.glove`
+---@param limits? number[][]  in the form of hand.dof_limits; values are clamped to them
 ---@return number[] [rad]
 function Glove:read_dofs(calibration, limits)
   of_glove.check("cyberglove:read_dofs", calibration)
@@ -84,12 +84,12 @@ end
 
 Glove.__close = function(self) self:close() end
 
---- A CyberGlove with 22 sensors.
+--- Driver of a CyberGlove with 22 sensors.
 ---@param options table
 ---@option port string|port  path of its serial line, or a port
 ---@option baud? integer [bit/s, 1 to 10000000] = 38400
 ---@option timeout? number [s, > 0, <= 3600] = 0.5  for an answer
----@option attempts? integer [1 to 1000] = 10  repetitions of what is not answered correctly
+---@option attempts? integer [1 to 1000] = 10  maximum number of attempts to get a correct answer
 ---@option readings? integer [1 to 99] = 1  records of which each value is the median
 ---@return cyberglove glove # `read`, `read_dofs`, `is_ready`, `close`
 ---@effect edits

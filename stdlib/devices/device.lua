@@ -1,4 +1,4 @@
---- What drivers of devices share: their port, errors, and checks of what is sent.
+--- Functions shared by drivers of devices: the port, errors, and checks of values before they are sent.
 local described = require "clench.described"
 local raise = require "clench.raise"
 local device = {}
@@ -16,14 +16,14 @@ function device.port_of(subject, given, baud)
   return given
 end
 
---- Raises an error because of the end of a port, or for want of an answer.
+--- Raises an error because a port has ended, or because there was no answer.
 ---@param why string  "closed", "unplugged" or "timeout"
 function device.fail(subject, port, why, doing)
   if why == "timeout" then raise(("%s: no valid answer from %s: %s"):format(subject, port.name, doing), "limit") end
   raise(("%s: %s is %s"):format(subject, port.name, why), "stale")
 end
 
---- Checks numbers that are to be sent.
+--- Checks numbers before they are sent.
 ---@param names string[]  of the numbers, for messages
 ---@param low number[]
 ---@param high number[]
@@ -41,7 +41,7 @@ function device.check_numbers(subject, values, names, low, high, unit)
   end
 end
 
---- The value at which most of some readings agree, number by number: the median.
+--- The median of several readings, number by number.
 ---@param readings number[][]  at least one
 function device.median(readings)
   local out = {}
@@ -54,7 +54,7 @@ function device.median(readings)
   return out
 end
 
---- Sends bytes without waiting, where nobody can wait: when a script ends.
+--- Sends bytes without waiting, for use when a script ends.
 function device.send_last(port, bytes)
   if port.stream:descriptor() >= 0 then port.stream:write(bytes, 0) end
 end

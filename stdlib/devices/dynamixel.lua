@@ -30,7 +30,7 @@ local function unsigned_format_of(size) return size == 1 and "<I1" or size == 2 
 -- Is it too late to go on with what was received? A device that never pauses would keep the exchange busy.
 local function is_late(self, last) return loop.time() > last + self.timeout end
 
--- Sends a packet, and collects answers by id until all ids have answered or the time is over.
+-- Sends a packet, and collects answers by id until all ids have answered or the timeout has passed.
 local function exchange(self, bytes, ids)
   self.port:discard()
   local ok, why = self.port:write(bytes, self.timeout)
@@ -56,7 +56,7 @@ local function exchange(self, bytes, ids)
   return answers
 end
 
--- Sends a fast sync read, and returns the answers by id: of all motors, or of none.
+-- Sends a fast sync read, and returns the answers of all motors by id, or none.
 local function exchange_fast(self, bytes, ids, size)
   self.port:discard()
   local ok, why = self.port:write(bytes, self.timeout)
@@ -76,7 +76,7 @@ local function check_lost(self, why, doing)
   if why == "closed" or why == "unplugged" then device.fail(subject, self.port, why, doing) end
 end
 
--- one instruction to one motor, until it is answered
+-- sends one instruction to one motor, until it is answered
 local function ask(self, id, instruction, parameters, doing)
   for _ = 1, self.attempts do
     local answers, why = exchange(self, packet.encode(id, instruction, parameters), {id})
@@ -93,7 +93,7 @@ end
 
 local function register_of(name) return table.unpack(registers[name] or raise(("%s: there is no register '%s'"):format(subject, tostring(name)))) end
 
--- answers of some motors to one question for a register
+-- answers of some motors to one query of a register
 local function ask_some(self, ids, address, size, is_fast)
   local list = {}
   for i, id in ipairs(ids) do list[i] = string.char(id) end
@@ -102,12 +102,12 @@ local function ask_some(self, ids, address, size, is_fast)
   return exchange(self, packet.encode(packet.broadcast, "sync_read", parameters), ids)
 end
 
--- a register of all motors, by id; signed
+-- values of a register of all motors, by id; signed
 local function read_all(self, name)
   local address, size = register_of(name)
   local missing, values = {table.unpack(self.ids)}, {}
   for attempt = 1, self.attempts do
-    -- on a bad line single packets come through when one of all does not
+    -- on a noisy line single packets may arrive when one for all motors does not
     local answers, why = ask_some(self, missing, address, size, self.is_fast and attempt % 2 == 1)
     check_lost(self, why, "reading " .. name)
     local still = {}
@@ -125,7 +125,7 @@ local function read_all(self, name)
   device.fail(subject, self.port, "timeout", ("motors %s: reading %s"):format(table.concat(missing, ", "), name))
 end
 
--- do all motors answer fast sync reads? Those of old firmware do not
+-- do all motors answer fast sync reads? Motors with old firmware do not
 local function answers_fast(self)
   local address, size = register_of "present_position"
   for _ = 1, 3 do
@@ -136,7 +136,7 @@ local function answers_fast(self)
   return false
 end
 
--- writes a register of all motors at once; nobody answers
+-- writes a register of all motors at once, which none answers
 local function write_all(self, name, values)
   local address, size = register_of(name)
   local list = {string.pack("<I2 I2", address, size)}
@@ -145,7 +145,7 @@ local function write_all(self, name, values)
   if not ok then device.fail(subject, self.port, why, "writing " .. name) end
 end
 
--- the same, read back and repeated until all motors have it
+-- the same, read back and repeated until all motors have the value
 local function set_all(self, name, values)
   for _ = 1, self.attempts do
     write_all(self, name, values)
@@ -168,7 +168,7 @@ local function write_one(self, id, name, value)
   ask(self, id, "write", string.pack("<I2", address) .. string.pack(unsigned_format_of(size), value), "writing " .. name)
 end
 
---- Sets the bus watchdogs again: motors stop if no packet comes for longer than its time, and then refuse goals.
+--- Restarts the bus watchdogs. A motor that receives no packet for longer than the watchdog time stops, and then rejects goals.
 function Bus:reset_watchdog()
   for _, id in ipairs(self.ids) do
     write_one(self, id, "bus_watchdog", 0)
@@ -247,7 +247,7 @@ local packet_doc = [[
 @option instruction string  its name
 @option parameters? string  bytes]]
 
--- the packet of {id, instruction, parameters}
+-- the packet with this {id, instruction, parameters}
 local function packet_of(options)
   local o = new_options("dynamixel.packet", options, nil, nil, packet_doc)
   local id, instruction, parameters = o:get "id", o:raw "instruction", o:raw "parameters"
@@ -275,8 +275,8 @@ local function connect(self)
   self:set_torque(true)
 end
 
---- Dynamixel motors of the X series on one bus, by protocol 2.0: positions of all motors are read and written together. Goals are checked
---- against the limits of the motors. Without packets the watchdog of the motors stops them, also when the program is killed; when it ends,
+--- Driver of Dynamixel motors of the X series on one bus, by protocol 2.0: positions of all motors are read and written together. Goals are checked
+--- against the limits of the motors. The watchdog of a motor stops it if packets cease, for example because the program was killed. When the program ends,
 --- the torque is switched off.
 ---@param options table
 ---@option port string|port  path of the serial line, or a port
@@ -284,11 +284,11 @@ end
 ---@option baud? integer [bit/s, 1 to 10000000] = 57600
 ---@option mode? string  "position", "current_position" (as LEAP hands use), "velocity", ...; default: as the motors are
 ---@option current? integer [-2047 to 2047]  goal current of all motors, in their unit
----@option velocity? number [rad/s, > 0]  largest velocity on the way to goals
+---@option velocity? number [rad/s, > 0]  maximum velocity of motions to goals
 ---@option watchdog? number [s, 0 to 2.54] = 2  0: none
----@option fast? boolean  reads by fast sync read, which all motors answer with one packet; default: if they do
+---@option fast? boolean  read by fast sync read, which all motors answer with one packet; default: if all motors support it
 ---@option timeout? number [s, > 0, <= 3600] = 0.05  for answers
----@option attempts? integer [1 to 1000] = 50  repetitions of what is not answered correctly
+---@option attempts? integer [1 to 1000] = 50  maximum number of attempts to get a correct answer
 ---@return dynamixel bus # `read_positions`, `write_positions`, `read_velocities`, `read_faults`, `set_torque`, `reset_watchdog`, `packet`, `close`
 ---@effect edits
 --- > simulated = clench.devices.simulated.dynamixel {ids = {1, 2}}

@@ -14,7 +14,7 @@ for byte = 0, 255 do
   crc_of_byte[byte] = crc
 end
 
---- The checksum of some bytes.
+--- The checksum of bytes.
 function packet.crc(bytes)
   local crc = 0
   for i = 1, #bytes do crc = (crc << 8 & 0xFFFF) ~ crc_of_byte[crc >> 8 ~ bytes:byte(i)] end
@@ -34,8 +34,8 @@ end
 
 --- The first packet among received bytes.
 ---@return table? found  {id, error, parameters, raw}; nil: none is complete yet
----@return integer next  where the search goes on
----@return boolean? damaged  a packet with a wrong checksum was passed over
+---@return integer next  position at which the search continues
+---@return boolean? damaged  a packet with a wrong checksum was skipped
 function packet.decode(bytes, from)
   local at = bytes:find(header, from, true)
   if not at then return nil, math.max(from, #bytes - 2) end  -- a header may begin in the last bytes
@@ -50,14 +50,14 @@ function packet.decode(bytes, from)
   return {id = id, instruction = body:byte(1), error = body:byte(2), parameters = body:sub(3)}, at + 7 + length
 end
 
--- of each motor in an answer to a fast sync read, beside its data: error, id and checksum
+-- bytes per motor in an answer to a fast sync read, in addition to its data: error, id and checksum
 local block_overhead = 4
 
 --- The answer of several motors to a fast sync read: one packet, without stuffed bytes, to which each motor appends a block.
 ---@param ids integer[]  of the motors, in the order of the request
 ---@param size integer  of the data of each [bytes]
 ---@return table? answers  {error, parameters} by id; nil: it is not complete yet
----@return boolean? damaged  it has a wrong checksum, or is not that of these motors
+---@return boolean? damaged  it has a wrong checksum, or is not from these motors
 function packet.decode_fast(bytes, ids, size)
   local at = bytes:find(header, 1, true)
   if not at then return nil end

@@ -14,7 +14,7 @@ function Flock:__tostring() return ("Flock of %d birds at %s"):format(self.birds
 
 local function address(bird) return string.char(0xF0 + bird) end
 
--- words of the record that begins at a byte: the high bit of its first byte is set, and of no other; nil if it is damaged
+-- words of the record that begins at a byte, of which only the first byte has its high bit set; nil if it is damaged
 local function parse(bytes, from, size)
   local words = {}
   for i = from, from + size - 1, 2 do
@@ -26,7 +26,7 @@ local function parse(bytes, from, size)
   return words
 end
 
--- the first record among received bytes, and what is left if there is none; bytes before its beginning are passed over
+-- the first record among received bytes; if there is none, nil and the bytes that may begin one. Bytes before the beginning of a record are skipped
 local function find_record(received, size)
   local at = received:find "[\x80-\xFF]"
   while at and #received - at + 1 >= size do
@@ -62,7 +62,7 @@ local function position_of(words) return {words[1] * range / 32768, words[2] * r
 
 local function dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
 
--- words 4 to 12 are the rows of the rotation; the 6 lowest bits of each mean nothing. nil: they are no rotation
+-- words 4 to 12 are the rows of the rotation; the 6 lowest bits of each have no meaning. nil: they are not a rotation
 local function pose_of_matrix(words)
   local rows = {}
   for r = 1, 3 do
@@ -123,14 +123,14 @@ local function configure(self)
   for bird = 1, self.birds do write(self, address(bird) .. self.mode.letter, "mode") end
 end
 
---- A Flock of Birds: 1 to 3 trackers on one bus.
+--- Driver of a Flock of Birds: 1 to 3 trackers on one bus.
 ---@param options table
 ---@option port string|port  path of its serial line, or a port
 ---@option birds? integer [1 to 3] = 1
 ---@option mode? "matrix"|"angles" = "matrix"  records of rotation matrices or of angles
 ---@option baud? integer [bit/s, 1 to 10000000] = 115200
 ---@option timeout? number [s, > 0, <= 3600] = 0.2  for a record
----@option attempts? integer [1 to 1000] = 20  repetitions of what is not answered correctly
+---@option attempts? integer [1 to 1000] = 20  maximum number of attempts to get a correct record
 ---@option readings? integer [1 to 99] = 1  records of which each word is the median: no checksum protects them
 ---@return flock flock # `read`, `close`
 ---@effect edits

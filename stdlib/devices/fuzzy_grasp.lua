@@ -4,7 +4,7 @@ local subject = "devices.fuzzy_grasp"
 local max_openings = 100  -- of a chain by one step
 local bisections = 30
 
--- does one of these bodies collide with something that is not of the hand?
+-- does one of these bodies collide with something other than the hand?
 local function collides(world, hand, bodies)
   for _, body in ipairs(bodies) do
     for _, pair in ipairs(world:colliding(body)) do
@@ -25,7 +25,7 @@ local function bisect(set, is_free)
   set(free)
 end
 
--- Places the palm: "free", "contact" once it was backed off, or "failed".
+-- Places the palm: "free", "contact" if it was backed off, or "failed".
 local function place_palm(world, hand, pose, step, tries)
   local function is_free() return not collides(world, hand, {hand.base}) end
   hand.pose = pose
@@ -42,7 +42,7 @@ local function place_palm(world, hand, pose, step, tries)
   return "failed"
 end
 
--- the DOFs by which a chain opens, each with the sense of it
+-- the DOFs by which a chain opens, each with its sign
 local function openings_of(hand, chain)
   local out, seen, info = {}, {}, hand.dof_info
   for _, joint in ipairs(chain.joints) do
@@ -65,7 +65,7 @@ local function opened(dofs, limits, openings, angle)
   return out
 end
 
--- Opens a chain that collides until it just touches: "free", "contact" or "failed".
+-- Opens a colliding chain until it only just touches: "free", "contact" or "failed".
 local function open_chain(world, hand, chain, step)
   local function is_free() return not collides(world, hand, chain.links) end
   if is_free() then return "free" end
@@ -81,16 +81,16 @@ local function open_chain(world, hand, chain, step)
   return "failed"
 end
 
---- Brings a hand to the readings of a tracker and a glove, which agree with the world only roughly: a palm that collides is backed off against
---- the approach direction until it touches, and each finger that collides is opened until it touches. If that fails, the hand stays where it was.
+--- Moves a hand according to the readings of a tracker and a glove, which agree with the world only roughly: a colliding palm is backed off against
+--- the approach direction until it only touches, and each colliding finger is opened until it only touches. If that fails, the hand does not move.
 ---@param options table
 ---@option hand robot
----@option pose pose  of the base, as `clench.devices.tracker_map` gives it
----@option dofs? number[]  as `clench.devices.glove_map` gives them; as they are by default. They are clamped to their limits [rad or m]
+---@option pose pose  of the base, as returned by `clench.devices.tracker_map`
+---@option dofs? number[]  as returned by `clench.devices.glove_map`; by default the present ones. They are clamped to their limits [rad or m]
 ---@option back_off? number [m, > 0] = 0.01  step against the approach direction
 ---@option tries? integer [1 to 1000] = 3  such steps
----@option opening? number [rad or m, > 0] = 0.1  step by which fingers open
----@return {ok: boolean, palm: string, chains: string[]} # "free", "contact" or "failed" of the palm and of each chain; no chains after a palm that failed
+---@option opening? number [rad or m, > 0] = 0.1  step by which each finger opens
+---@return {ok: boolean, palm: string, chains: string[]} # "free", "contact" or "failed", for the palm and for each chain; no chains if the palm has failed
 ---@effect reads
 --- > clench.devices.fuzzy_grasp {hand = hand, pose = hand.pose}.palm  --> free
 return function(options)
@@ -104,7 +104,7 @@ return function(options)
     result.ok = false
     return result
   end
-  -- wrong numbers are an error before anything moves
+  -- invalid numbers are rejected before anything moves
   hand:set_posture(old_pose, dofs or old_dofs)
   local result = {ok = true, palm = place_palm(world, hand, pose, back_off, tries), chains = {}}
   if result.palm == "failed" then return back(result) end

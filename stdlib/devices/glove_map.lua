@@ -21,7 +21,7 @@ local function read_pairs(o, count, rows)
   return out
 end
 
---- The map from raw sensors of a glove to DOFs of a hand, clamped to their limits. DOFs that it leaves out stay as they are.
+--- A function from raw sensor values of a glove to DOFs of a hand, clamped to their limits. DOFs without a row keep their values.
 ---@param options table
 ---@option hand robot
 ---@option calibration? table  {slopes, intercepts}; that of the hand, `hand.glove`, by default

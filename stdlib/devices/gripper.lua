@@ -1,4 +1,4 @@
---- What drivers of Robotiq grippers share: registers of requests and of the status, waiting, and the end.
+--- Functions shared by drivers of Robotiq grippers: registers of requests and of the status, waiting, and closing.
 local described = require "clench.described"
 local device = require "clench.devices.device"
 local loop = clench.loop
@@ -12,11 +12,11 @@ local request_address, status_address = 0x03E8, 0x07D0
 ---@param bytes string  two per register
 function gripper.send(self, bytes) modbus.write(self, request_address, bytes) end
 
---- The bytes of the status.
+--- Reads the bytes of the status.
 ---@param count integer  of registers
 function gripper.status(self, count) return modbus.read(self, status_address, count) end
 
---- Reads states until one fulfills a condition.
+--- Reads states until one satisfies a condition.
 function gripper.wait_for(self, doing, read, condition)
   local last = loop.time() + self.move_timeout
   while true do
@@ -27,12 +27,12 @@ function gripper.wait_for(self, doing, read, condition)
   end
 end
 
---- A part of the largest speed or force as a byte.
+--- A fraction of the maximum speed or force, as a byte.
 ---@param subject string  "robotiq:move"
 function gripper.byte_of(subject, name, value, default)
   if value == nil then value = default end
   if type(value) ~= "number" or not (value >= 0 and value <= 1) then
-    raise(("%s: %s: expected a part from 0 to 1, got %s"):format(subject, name, described(value)))
+    raise(("%s: %s: expected a fraction from 0 to 1, got %s"):format(subject, name, described(value)))
   end
   return math.floor(255 * value + 0.5)
 end
@@ -43,9 +43,9 @@ local function last_frame(self)
   return modbus.frame(string.pack(">B B I2 I2 B", self.slave, 16, request_address, #bytes // 2, #bytes) .. bytes)
 end
 
---- Completes a class whose method `stopping` returns the registers that stop the fingers.
+--- Adds the common methods to a class whose method `stopping` returns the registers that stop the fingers.
 function gripper.complete(class)
-  --- Stops the fingers where they are.
+  --- Stops the fingers.
   function class:stop() gripper.send(self, self:stopping()) end
 
   --- Stops the fingers and closes the port.
@@ -58,8 +58,8 @@ function gripper.complete(class)
   class.__gc = function(self) device.send_last(self.port, last_frame(self)) end
 end
 
---- The options that all grippers have; opens the port.
----@param o table  options of the caller, which are all read but these
+--- Reads the options that all grippers have, and opens the port.
+---@param o table  options of the caller, which has read all others
 function gripper.new(subject, o, fields)
   local given, baud = o:raw "port", o:get "baud"
   fields.subject, fields.slave, fields.timeout = subject, o:get "slave", o:get "timeout"

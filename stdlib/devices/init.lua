@@ -1,3 +1,3 @@
 -- stdlib/devices/init.lua
---- Hands, gloves and trackers at serial lines, and programs that play them.
+--- Drivers of hands, gloves and trackers on serial lines, and simulators of these devices.
 return require "clench.lazy"("devices", {"barrett", "cyberglove", "dynamixel", "flock", "robotiq", "robotiq_3f", "simulated", "calibrate", "save_calibration", "tracker_map", "glove_map", "fuzzy_grasp", "mirror"})

@@ -1,7 +1,7 @@
 --- Linear least squares by Householder's method, for few unknowns.
 local least_squares = {}
 
--- makes the rows below the diagonal of column c zero; the same for the right side
+-- makes the entries of column c below the diagonal zero, and transforms the right side accordingly
 local function eliminate(a, b, c)
   local norm = 0
   for r = c, #a do norm = norm + a[r][c] ^ 2 end
@@ -22,11 +22,11 @@ local function eliminate(a, b, c)
   reflect(function(r) return b[r] end, function(r, x) b[r] = x end)
 end
 
---- Solves a x = b in the least squares. Both are overwritten.
+--- Solves a x = b in the least-squares sense. Both are overwritten.
 ---@param a number[][]  rows, at least as many as columns
 ---@param b number[]
----@return number[]? x  nil: the columns depend on each other
----@return integer? column  the first that depends on those before it
+---@return number[]? x  nil: the columns are linearly dependent
+---@return integer? column  the first that is a combination of those before it
 function least_squares.solve(a, b)
   local columns = #a[1]
   local largest = 0

@@ -42,7 +42,7 @@ local function write_device(device, values)
   device:move(values)
 end
 
--- values of the device as DOFs of the hand: the others stay as they are
+-- values of the device as DOFs of the hand; the other DOFs keep their values
 local function to_hand(self, values)
   local dofs = self.hand.dofs
   for i, d in ipairs(self.dofs) do dofs[d] = values[i] * self.signs[i] + self.offsets[i] end
@@ -55,7 +55,7 @@ local function to_device(self, dofs)
   return values
 end
 
---- Moves the simulated hand to where the real one is, until contact stops it.
+--- Moves the simulated hand to the posture of the real one, until contact stops it.
 ---@return table result  as of hand:move_dofs
 function Mirror:pull()
   local dofs, limits = to_hand(self, read_device(self)), self.hand.dof_limits
@@ -63,9 +63,9 @@ function Mirror:pull()
   return self.hand:move_dofs(dofs)
 end
 
---- Sends the real hand to where the simulated one is: within the limits, and no further than the largest speed allows since the last call.
---- The first call begins at the place of the real hand, and moves by at most `interval` at that speed.
----@return boolean done  true: all was sent; false: call it again
+--- Moves the real hand towards the posture of the simulated one, within the limits, and by no more than the maximum speed permits since the last call.
+--- The first call begins at the posture of the real hand, and moves it for at most `interval` at that speed.
+---@return boolean done  true: the posture was sent completely; false: call it again
 function Mirror:push()
   local now = loop.time()
   local seconds = self.pushed and math.min(now - self.pushed, self.interval) or self.interval
@@ -108,7 +108,7 @@ local function read_dofs(o, hand)
   return out
 end
 
--- of each value of the device
+-- for each value of the device
 local function read_limits(o, mirror)
   local given, out = o:raw "limits", {}
   if given ~= nil and (type(given) ~= "table" or #given ~= #mirror.dofs) then o:expected("limits", ("a list of %d ranges {low, high}"):format(#mirror.dofs), given) end
@@ -127,7 +127,7 @@ local function read_limits(o, mirror)
   return out
 end
 
---- Mirrors a real hand: `pull()` moves the simulated hand as the real one stands, `push()` sends the real hand after the simulated one, slowly.
+--- Mirrors a real hand: `pull()` moves the simulated hand to the posture of the real one, `push()` moves the real hand slowly to that of the simulated one.
 ---@param options table
 ---@option hand robot  the simulated hand
 ---@option device any  a driver with `read` and `move`, or `read_positions` and `write_positions`
@@ -135,8 +135,8 @@ end
 ---@option signs? number[]  1 or -1 for each value; DOF = sign * value + offset
 ---@option offsets? number[]  for each value [rad or m]
 ---@option limits? number[][]  ranges of values that are sent; those of the simulated hand by default
----@option max_speed? number [rad/s or m/s, > 0] = 1  of each value that is sent
----@option interval? number [s, > 0] = 0.1  longest time for which one call of push moves
+---@option max_speed? number [rad/s or m/s, > 0] = 1  maximum speed of each value that is sent
+---@option interval? number [s, > 0] = 0.1  maximum duration of the motion of one call of push
 ---@return mirror mirror # `pull`, `push`
 ---@effect reads
 --- > device = {read = function() return {0, 1, 1, 1} end, move = function() end}

@@ -3,7 +3,7 @@ local device = require "clench.devices.device"
 local raise = require "clench.raise"
 local modbus = {}
 
---- The checksum of some bytes.
+--- The checksum of bytes.
 function modbus.crc(bytes)
   local crc = 0xFFFF
   for i = 1, #bytes do
@@ -16,14 +16,14 @@ end
 --- A frame with its checksum.
 function modbus.frame(bytes) return bytes .. string.pack("<I2", modbus.crc(bytes)) end
 
--- one exchange: the answer without checksum; nil and why there is none
+-- one exchange: the answer without checksum; nil and the reason if there is none
 local function exchange(master, request, size)
   local port = master.port
   port:discard()
   local ok, why = port:write(request, master.timeout)
   if not ok then return nil, why end
   local head
-  head, why = port:read(5, master.timeout)  -- as long as an answer that reports an error
+  head, why = port:read(5, master.timeout)  -- length of an answer that reports an error
   if not head then return nil, why end
   if head:byte(2) & 0x80 == 0 then
     local rest
@@ -35,14 +35,14 @@ local function exchange(master, request, size)
   return head:sub(1, -3)
 end
 
--- repeats a request until it is answered; size: of a correct answer
+-- repeats a request until it is answered; size: length of a correct answer
 local function ask(master, bytes, size, doing)
   local request = modbus.frame(bytes)
   for _ = 1, master.attempts do
     local answer, why = exchange(master, request, size)
     if why == "closed" or why == "unplugged" then device.fail(master.subject, master.port, why, doing) end
     if answer and answer:byte(2) == bytes:byte(2) then return answer end
-    if answer then raise(("%s: the device refuses: %s (exception %d)"):format(master.subject, doing, answer:byte(3)), "stale") end
+    if answer then raise(("%s: the device rejects the request: %s (exception %d)"):format(master.subject, doing, answer:byte(3)), "stale") end
   end
   device.fail(master.subject, master.port, "timeout", doing)
 end

@@ -7,7 +7,7 @@ local raise = require "clench.raise"
 local subject = "devices.robotiq"
 local Robotiq = class "robotiq"
 
-local objects = {[0] = "moving", [1] = "opening", [2] = "closing", [3] = "none"}  -- where it has met an object
+local objects = {[0] = "moving", [1] = "opening", [2] = "closing", [3] = "none"}  -- motion in which the fingers were stopped by an object
 
 function Robotiq:__tostring() return "Robotiq gripper at " .. self.port.name end
 
@@ -20,20 +20,20 @@ end
 
 local function is_active(status) return status.status & 0x01 == 1 and status.status >> 4 & 3 == 3 end
 
---- Activates the gripper: it opens and closes once to find its ends.
+--- Activates the gripper: it opens and closes once to find its ends of travel.
 function Robotiq:activate()
   send(self, 0, 0, 0, 0)
   send(self, 1, 0, 0, 0)
   gripper.wait_for(self, "activation", read_status, is_active)
 end
 
--- 0 (open) to 255 (closed) of an opening
+-- position, from 0 (open) to 255 (closed), for an opening
 local function count_of(self, opening) return math.floor(255 * (1 - opening / self.stroke) + 0.5) end
 
---- Moves the fingers until they have an opening, or meet an object.
+--- Moves the fingers until they have the given opening, or until an object stops them.
 ---@param opening number  distance of the fingers [m]
----@param speed? number  part of the largest speed, 1 by default
----@param force? number  part of the largest force, 0.5 by default
+---@param speed? number  fraction of the maximum speed, 1 by default
+---@param force? number  fraction of the maximum force, 0.5 by default
 ---@return table state  as of read
 function Robotiq:move(opening, speed, force)
   device.check_numbers("robotiq:move", {opening}, {"opening"}, {0}, {self.stroke}, "m")
@@ -45,7 +45,7 @@ function Robotiq:move(opening, speed, force)
   return self:read()
 end
 
---- The state: opening [m], is_moving, object ("opening" or "closing": it has met one in that motion), fault (0: none), current [A].
+--- The state: opening [m], is_moving, object ("opening" or "closing": one has stopped the fingers in that motion), fault (0: none), current [A].
 ---@return {opening: number, is_moving: boolean, is_active: boolean, object?: string, fault: integer, current: number}
 function Robotiq:read()
   local status = read_status(self)
@@ -58,8 +58,8 @@ function Robotiq:stopping() return "\1\0\0\0\0\0" end
 
 gripper.complete(Robotiq)
 
---- A Robotiq gripper of two fingers, by Modbus RTU. Openings are checked before they are sent. When the program ends, the fingers are stopped;
---- a program that is killed lets a motion end: the gripper has no watchdog.
+--- Driver of a two-finger Robotiq gripper, by Modbus RTU. Openings are checked before they are sent. When the program ends, the fingers are stopped;
+--- but if it is killed, a motion continues to its end, as the gripper has no watchdog.
 ---@param options table
 ---@option port string|port  path of its serial line, or a port
 ---@option stroke? number [m, > 0] = 0.085  largest opening
@@ -67,8 +67,8 @@ gripper.complete(Robotiq)
 ---@option baud? integer [bit/s, 1 to 10000000] = 115200
 ---@option timeout? number [s, > 0, <= 3600] = 0.1  for an answer
 ---@option move_timeout? number [s, > 0, <= 3600] = 10  for activation and motions
----@option poll? number [s, >= 0] = 0.02  between two questions whether a motion has ended
----@option attempts? integer [1 to 1000] = 50  repetitions of what is not answered correctly
+---@option poll? number [s, >= 0] = 0.02  between two queries for the end of a motion
+---@option attempts? integer [1 to 1000] = 50  maximum number of attempts to get a correct answer
 ---@return robotiq gripper # `activate`, `move`, `read`, `stop`, `close`
 ---@effect edits
 --- > simulated = clench.devices.simulated.robotiq {}

@@ -39,7 +39,7 @@ local function read_status(self)
   return status
 end
 
---- Activates the gripper in basic mode: it opens and closes to find its ends.
+--- Activates the gripper in basic mode: it opens and closes to find its ends of travel.
 function Gripper:activate()
   self.mode = "basic"
   gripper.send(self, ("\0"):rep(16))
@@ -51,7 +51,7 @@ local function check_active(self, doing)
   if not read_status(self).is_active then raise(("robotiq_3f:%s: the gripper is not active; call activate first"):format(doing), "stale") end
 end
 
---- Brings the fingers into a mode; they open for that.
+--- Switches the fingers to a mode, for which they open.
 ---@param mode "basic"|"pinch"|"wide"|"scissor"
 function Gripper:set_mode(mode)
   if not modes[mode] then raise("robotiq_3f:set_mode: expected basic, pinch, wide or scissor, got " .. described(mode)) end
@@ -61,7 +61,7 @@ function Gripper:set_mode(mode)
   gripper.wait_for(self, "mode " .. mode, read_status, function(status) return status.is_active and status.mode == modes[mode] end)
 end
 
--- counts of the axes that a motion names, and the options by which they are independent
+-- positions of the axes in a motion, and the options that make the axes independent
 local function goals_of(closing)
   local list = type(closing) == "table" and closing or {closing}
   local count = #list
@@ -73,10 +73,10 @@ local function goals_of(closing)
   return goals, (count > 1 and individual_fingers or 0) | (count > 3 and individual_scissor or 0)
 end
 
---- Moves the fingers until they are closed as far, or meet an object.
----@param closing number|number[]  of all fingers, from 0, open, to 1; or of fingers A, B and C, and as a fourth number of the scissor
----@param speed? number  part of the largest speed, 1 by default
----@param force? number  part of the largest force, 0.5 by default
+--- Moves the fingers until they are closed by the given fractions, or until objects stop them.
+---@param closing number|number[]  from 0, open, to 1: one number for all fingers, or one for each of the fingers A, B and C, optionally followed by that of the scissor
+---@param speed? number  fraction of the maximum speed, 1 by default
+---@param force? number  fraction of the maximum force, 0.5 by default
 ---@return table state  as of read
 function Gripper:move(closing, speed, force)
   local goals, options = goals_of(closing)
@@ -92,8 +92,8 @@ function Gripper:move(closing, speed, force)
   return self:read()
 end
 
---- The state. Lists are those of fingers A, B, C and of the scissor: closing, from 0 to 1; objects: "opening" or "closing" if one was met in that motion, else
---- false; currents [A].
+--- The state. Lists have an item for each of the fingers A, B, C and for the scissor: closing, from 0 to 1; objects: "opening" or "closing" if one stopped
+--- that motion, else false; currents [A].
 ---@return {closing: number[], objects: (string|boolean)[], currents: number[], is_moving: boolean, is_active: boolean, mode: string, fault: integer}
 function Gripper:read()
   local status = read_status(self)
@@ -106,16 +106,17 @@ function Gripper:stopping() return request(self, 0, 0, {}, 0, 0) end
 
 gripper.complete(Gripper)
 
---- A Robotiq gripper of three fingers, by Modbus RTU: all fingers at once, or each and the scissor for itself, in four modes. Values are checked before they are
---- sent. When the program ends, the fingers are stopped; a program that is killed lets a motion end: the gripper has no watchdog.
+--- Driver of a three-finger Robotiq gripper, by Modbus RTU: moves all fingers together, or each finger and the scissor separately, in four modes. Values are
+--- checked before they are sent. When the program ends, the fingers are stopped; but if it is killed, a motion continues to its end, as the gripper has no
+--- watchdog.
 ---@param options table
 ---@option port string|port  path of its serial line, or a port
 ---@option slave? integer [1 to 247] = 9
 ---@option baud? integer [bit/s, 1 to 10000000] = 115200
 ---@option timeout? number [s, > 0, <= 3600] = 0.1  for an answer
 ---@option move_timeout? number [s, > 0, <= 3600] = 20  for activation, modes and motions
----@option poll? number [s, >= 0] = 0.02  between two questions whether a motion has ended
----@option attempts? integer [1 to 1000] = 50  repetitions of what is not answered correctly
+---@option poll? number [s, >= 0] = 0.02  between two queries for the end of a motion
+---@option attempts? integer [1 to 1000] = 50  maximum number of attempts to get a correct answer
 ---@return robotiq_3f gripper # `activate`, `set_mode`, `move`, `read`, `stop`, `close`
 ---@effect edits
 --- > simulated = clench.devices.simulated.robotiq_3f {}

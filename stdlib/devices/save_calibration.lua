@@ -2,7 +2,7 @@ local check = require "clench.devices.calibration".check
 local described = require "clench.described"
 local raise = require "clench.raise"
 
---- Writes a calibration as GraspIt! does, with all digits: `clench.files.glove_calibration` reads the same numbers.
+--- Writes a calibration in GraspIt!'s format, with all digits: `clench.files.glove_calibration` reads the same numbers.
 ---@param path string  file to write
 ---@param calibration table  {slopes, intercepts}, as of clench.devices.calibrate
 ---@effect files

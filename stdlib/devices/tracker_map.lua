@@ -11,12 +11,12 @@ local function pose_of(o, name)
   return value
 end
 
---- The map from readings of a tracker to poses of the body that carries its sensor, as GraspIt! has it. "absolute": the transmitter stands at
---- the origin of the world. "relative": the body moves from where it was when the base reading was taken, as the sensor moves in the base.
---- "camera": readings are relative to the base, which stands at a pose.
+--- A function from readings of a tracker to poses of the body that carries its sensor, as in GraspIt!. "absolute": the transmitter is at
+--- the origin of the world. "relative": the body moves from its pose at the time of the base reading, as the sensor moves relative to that reading.
+--- "camera": readings are relative to the base reading, at which the camera has the given pose.
 ---@param options table
----@option mode? "absolute"|"relative"|"camera" = "absolute"  what the readings are relative to
----@option mount? pose  of the sensor in the body, as `hand.tracker` and `body.tracker` tell it; the identity by default
+---@option mode? "absolute"|"relative"|"camera" = "absolute"  reference of the readings
+---@option mount? pose  of the sensor in the body, as in `hand.tracker` and `body.tracker`; the identity by default
 ---@option base? pose  reading of the base: of the sensor itself (relative), or of the camera's
 ---@option pose? pose  of the body (relative) or the camera at that time, in the world
 ---@return fun(reading: pose): pose

@@ -94,7 +94,7 @@ end
 ---@param step fun(stepping, last: number): boolean  makes a step that ends at `last` at the latest; returns false if no time is left
 ---@param events fun(stepping, own): table[]
 return function(hooks, world, seconds, stepping, step, events)
-  if hooks.runs then raise "world:run: the world runs already: functions called in a run cannot run it" end
+  if hooks.runs then raise "world:run: the world is already running: functions called during a run cannot run it" end
   hooks.runs = true
   local running <close> = setmetatable({}, {__close = function()
     for _, name in ipairs {"controllers", "tasks", "listeners", "observers"} do clear(hooks[name]) end

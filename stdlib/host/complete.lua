@@ -117,7 +117,7 @@ local function resolve(path)
   return value
 end
 
--- what is open at the end of a line: the position of an open string, and the open brackets, each {mark, position}
+-- open items at the end of a line: the position of an open string, and the open brackets, each {mark, position}
 local function open_at_end(line)
   local quote, from, brackets, at = nil, nil, {}, 1
   while at <= #line do

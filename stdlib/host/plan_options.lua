@@ -62,7 +62,7 @@ function plan_options.defaults()
   return defaults
 end
 
--- the value that the text of an option stands for: the text itself if it is no number
+-- value of an option's text: a number, or else the text itself
 local function value_of(option, text)
   if words_of(option)[1] or not text:find "^[+-]?[%d.]+[eE]?[+-]?%d*$" then return text end
   local number = tonumber(text)

@@ -69,7 +69,7 @@ local function run(root, folder, package, unit, strict, ...)
   shown:close()
 end
 
---- Opens an empty world in a window beside the console, which gets `session` and `view`.
+--- Opens an empty world in a window next to the console, in which `session` and `view` are defined.
 ---@return string  the exit code
 function view.beside()
   local opened = clench.session()

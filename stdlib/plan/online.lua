@@ -89,7 +89,7 @@ function Online:preshape()
   return dofs
 end
 
---- A search that continues while hand and object move: each `planner:search()` looks around their present poses, and ranks the grasps by their distance from
+--- A search that continues while hand and object move: each `planner:search()` searches around their present poses, and ranks the grasps by their distance from
 --- the hand. It moves nothing in the user's world.
 ---@param options table  hand, object and settings of the search
 ---@like clench.plan.anneal  hand, object

@@ -74,7 +74,7 @@ function opposition.middle(hand, dofs, finger)
   return (tips[finger] + others) * 0.5
 end
 
---- The pose of the hand's base that brings the frame of approach and thumb, at a given point of the world, to the unit frame.
+--- The pose of the hand's base at which its frame of approach and thumb, now at a given point of the world, coincides with the world frame.
 function opposition.base_in_frame(hand, point, thumb)
   return opposition.frame(point, hand.approach.direction, thumb):inverse() * hand.pose
 end

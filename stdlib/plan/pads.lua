@@ -44,7 +44,7 @@ local function pad_of(tip, inward, approach)
   return pose * (middle + at * (front - middle:dot(at))), (high - low) / 2
 end
 
---- How a hand opens and closes between its pads.
+--- Describes the opening of a hand between its pads.
 ---@param hand robot
 ---@return fun(dofs: number[], thumb: vec3, finger: integer): vec3, number, number  with these DOFs: the midpoint between the thumb's pad and the others', in the world; their distance along `thumb`, negative if they passed each other; half the length of the shortest pad along the approach [m]
 function pads.of(hand)

@@ -1,9 +1,9 @@
---- Checks of arguments that the functions and methods of ports share.
+--- Checks of arguments, shared by the functions and methods of ports.
 local described = require "clench.described"
 local raise = require "clench.raise"
 local check = {}
 
---- A time to wait for; nil is allowed: without limit.
+--- A maximum waiting time; nil: no limit.
 function check.seconds(subject, seconds)
   if seconds == nil then return end
   if type(seconds) ~= "number" or not (seconds >= 0 and seconds < math.huge) then

@@ -23,7 +23,7 @@ local function addresses_of(host, last)
   return found
 end
 
--- a port, or nil and why there is none
+-- a port, or nil and the reason if there is none
 local function try(last, ...)
   local ok, stream = pcall(begin_connect, ...)
   if not ok then return nil, stream end
@@ -36,7 +36,7 @@ end
 --- Connects to a server.
 ---@param host string  a name or an address; without `port`, the path of a Unix socket
 ---@param port? integer [1 to 65535]  of the server
----@param seconds? number  waits at most so long; 10 by default [s]
+---@param seconds? number  maximum waiting time; 10 by default [s]
 ---@return port
 ---@effect edits
 --- > listener = clench.port.listen {}

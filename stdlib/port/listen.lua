@@ -14,7 +14,7 @@ local Listener = class "listener"
 function Listener:__tostring() return ("listener %s%s"):format(self.name, self:is_open() and "" or " (closed)") end
 
 --- Waits for the next client.
----@param seconds? number  waits at most so long [s]
+---@param seconds? number  maximum waiting time [s]
 ---@return port? client
 ---@return string? reason  "timeout" or "closed"
 function Listener:accept(seconds)

@@ -1,7 +1,7 @@
 local new_port = require "clench.port.port"
 local open_pair = require "clench.open_pair"
 
---- Two ports, each of which receives what is written to the other.
+--- Two ports, each of which receives the bytes written to the other.
 ---@return port a
 ---@return port b
 ---@effect edits

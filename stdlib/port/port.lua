@@ -10,13 +10,13 @@ local recording = require "clench.port.recording"
 local Port = class "port"
 
 local default_max_line = 1 << 20    -- [bytes]
-local default_max_queue = 4 << 20   -- that wait to be sent [bytes]
-local max_read = 1 << 26            -- of one read by count [bytes]
-local max_discard = 1 << 20         -- that arrive while others are dropped [bytes]
+local default_max_queue = 4 << 20   -- maximum size of data that wait to be sent [bytes]
+local max_read = 1 << 26            -- maximum of one read by count [bytes]
+local max_discard = 1 << 20         -- maximum that arrives while earlier bytes are discarded [bytes]
 
 function Port:__tostring() return ("port %s%s"):format(self.name, self:is_open() and "" or " (closed)") end
 
--- waits until the stream is ready; false: the time is over
+-- waits until the stream is ready; false: timeout
 local function wait(self, last, event)
   local left = last and last - loop.time()
   if left and left <= 0 then return false end
@@ -51,7 +51,7 @@ local function find_any(self)
   if size > 0 then return self.stream:take(size) end
 end
 
--- drops the rest of a line that was too long; false: its end is not there yet
+-- drops the rest of a line that was too long; false: its end has not arrived yet
 local function skip(self, delimiter)
   local stream = self.stream
   local at = stream:find(delimiter)
@@ -73,20 +73,20 @@ end
 
 --- Reads a number of bytes.
 ---@param count integer
----@param seconds? number  waits at most so long [s]
----@return string? bytes  nil if not so many arrived; those that did can still be read
+---@param seconds? number  maximum waiting time [s]
+---@return string? bytes  nil if fewer have arrived; these can still be read
 ---@return string? reason  "timeout", "closed" or "unplugged"
 function Port:read(count, seconds)
   return receive(self, "read", seconds, find_count, check.integer("port:read", "count", count, 1, max_read))
 end
 
---- Reads what has arrived, at least one byte.
----@param seconds? number  waits at most so long [s]
+--- Reads the bytes that have arrived; waits for at least one.
+---@param seconds? number  maximum waiting time [s]
 function Port:read_some(seconds) return receive(self, "read_some", seconds, find_any) end
 
---- Reads up to a delimiter, which is taken and not returned.
+--- Reads up to a delimiter, which is removed and not returned.
 ---@param delimiter string
----@param seconds? number  waits at most so long [s]
+---@param seconds? number  maximum waiting time [s]
 ---@return string? text
 ---@return string? reason  as of read; "too long": a text of more than max_line bytes was dropped
 function Port:read_until(delimiter, seconds)
@@ -102,28 +102,28 @@ local function without_return(line, why)
 end
 
 --- Reads a line, without its end, "\n" or "\r\n".
----@param seconds? number  waits at most so long [s]
+---@param seconds? number  maximum waiting time [s]
 function Port:read_line(seconds)
   return without_return(receive(self, "read_line", seconds, find_delimiter, "\n"))
 end
 
---- Reads what has arrived, without waiting and without taking it.
----@return integer count  of bytes that arrived; 0: none
----@return string? reason  "closed" or "unplugged": nothing more arrives
+--- Buffers the bytes that have arrived, without waiting.
+---@return integer count  number of bytes that have arrived; 0: none
+---@return string? reason  "closed" or "unplugged": no more will arrive
 function Port:fill()
   local count = self.stream:fill()
   if count > 0 and self.on_received then self.on_received(self.stream:tail(count)) end
   return count, self.stream:ending()
 end
 
---- Takes a line of what fill has read, without waiting.
+--- Takes a line from the bytes that fill has read, without waiting.
 ---@return string? line  nil: there is none yet
 ---@return string? reason  "too long", as of read_until
 function Port:take_line()
   return without_return(find_delimiter(self, "\n"))
 end
 
---- Drops what has arrived and was not read, and returns it; of a stream that never pauses, what arrives within the call is dropped only up to a limit.
+--- Removes all bytes that have arrived and were not read, and returns them; of a stream that never pauses, only up to a limit.
 function Port:discard()
   local left = max_discard
   repeat
@@ -138,7 +138,7 @@ local function stop_flushing(self)
   self.flushing = nil
 end
 
--- sends as much of the queue as the system takes
+-- sends as much of the queue as the system accepts
 local function flush(self)
   local queue = self.queue
   while queue.first <= queue.last do
@@ -155,7 +155,7 @@ local function flush(self)
   if self.queued == 0 then stop_flushing(self) end
 end
 
--- puts bytes in the queue, and sends what can be sent now
+-- appends bytes to the queue, and sends as many as possible now
 local function put(self, bytes)
   if self.check_sent then self.check_sent(bytes) end
   if self.on_sent then self.on_sent(bytes) end
@@ -175,10 +175,10 @@ end
 
 local function fits(self, bytes) return self.queued == 0 or self.queued + #bytes <= self.max_queue end
 
---- Sends bytes without waiting: what the system does not take now is queued, and sent by the loop.
+--- Sends bytes without waiting: those that the system does not accept now are queued, and sent by the loop.
 ---@param bytes string
 ---@return boolean? ok
----@return string? reason  "full": more than max_queue bytes would be queued, and none of these are; "closed" or "unplugged"
+---@return string? reason  "full": more than max_queue bytes would be queued, so none of these are sent; "closed" or "unplugged"
 function Port:send(bytes)
   check_bytes("send", bytes)
   local ending = self.stream:write_ending()
@@ -200,9 +200,9 @@ local function wait_until(self, last, is_over)
   return true
 end
 
---- Sends bytes, and waits until the system has taken all of them.
+--- Sends bytes, and waits until the system has accepted all of them.
 ---@param bytes string
----@param seconds? number  waits at most so long [s]
+---@param seconds? number  maximum waiting time [s]
 ---@return boolean? ok
 ---@return string? reason  "timeout", "closed" or "unplugged"; after a timeout the loop sends the rest
 function Port:write(bytes, seconds)
@@ -218,17 +218,17 @@ function Port:write(bytes, seconds)
 end
 
 --- Waits until all bytes that are queued have been sent.
----@param seconds? number  waits at most so long [s]
+---@param seconds? number  maximum waiting time [s]
 function Port:drain(seconds)
   check.seconds("port:drain", seconds)
   local goal = self.put
   return wait_until(self, seconds and loop.time() + seconds, function() return self.sent >= goal end)
 end
 
---- May more arrive, as far as is known?
+--- False if it is known that no more will arrive.
 function Port:is_open() return self.stream:ending() == nil end
 
---- Closes the port. Coroutines that wait for it go on, with the reason "closed".
+--- Closes the port. Coroutines that wait for it continue, with the reason "closed".
 function Port:close()
   if self.stream:descriptor() >= 0 then
     loop.release(self.stream:descriptor())
@@ -243,7 +243,7 @@ end
 
 Port.__close = function(self) self:close() end
 
---- Records what is sent and received from now on, with times, for `clench.port.replay`.
+--- Records all bytes sent and received from now on, with their times, for `clench.port.replay`.
 ---@param path string  file to write
 function Port:record(path)
   check.string("port:record", "path", path)
@@ -259,8 +259,8 @@ function Port:stop_recording()
   if self.is_recorded then self.on_received, self.on_sent, self.is_recorded = nil, nil, nil end
 end
 
----@param stream userdata  of clench.open_serial and the like
----@param fields? table  of the port
+---@param stream userdata  as returned by clench.open_serial and similar functions
+---@param fields? table  additional fields of the port
 return function(stream, fields)
   local port = {stream = stream, name = stream:name(), queue = {first = 1, last = 0, from = 0}, queued = 0, put = 0, sent = 0,
                 max_line = default_max_line, max_queue = default_max_queue}

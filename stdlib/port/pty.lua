@@ -1,7 +1,7 @@
 local new_port = require "clench.port.port"
 local open_pty = require "clench.open_pty"
 
---- Opens a pseudo-terminal: a program that opens its `path` finds a serial line, whose other side is the port. The path exists until
+--- Opens a pseudo-terminal: for a program that opens its `path` it is a serial line, whose other side is the port. The path exists until
 --- the port is closed.
 ---@return port port  with the field `path`
 ---@effect edits

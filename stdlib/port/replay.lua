@@ -7,7 +7,7 @@ local open_pair = require "clench.open_pair"
 local raise = require "clench.raise"
 local recording = require "clench.port.recording"
 
--- a function that compares what is sent with the recording
+-- a function that compares sent bytes with the recording
 local function comparison(path, records)
   local expected, sent = {}, 0
   for _, record in ipairs(records) do
@@ -23,7 +23,7 @@ local function comparison(path, records)
   end
 end
 
--- plays the device's side: answers when what the recording has before has been sent
+-- plays the device's side: each answer follows when the bytes that precede it in the recording have been sent
 local function play(other, records, speed)
   local before = 0
   for _, record in ipairs(records) do
@@ -39,8 +39,8 @@ local function play(other, records, speed)
   other:close()
 end
 
---- A port that plays the device's side of a recording made by `port:record`. Bytes arrive at their times, but not before the program has
---- sent what the recording has before them; the program must send the same bytes, or its write fails. At the end the port is closed.
+--- A port that plays the device's side of a recording made by `port:record`. Bytes arrive at their recorded times, but not before the program has
+--- sent the bytes that precede them in the recording. The program must send the same bytes, otherwise its write fails. At the end the port is closed.
 ---@param path string  file to read
 ---@param options? table
 ---@option speed? number [> 0] = 1  `math.huge`: without pauses

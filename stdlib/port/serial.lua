@@ -3,10 +3,10 @@ local new_port = require "clench.port.port"
 local open_serial = require "clench.open_serial"
 local on_behalf_of = require "clench.on_behalf_of"
 
---- Opens a serial line for raw bytes, for this process only. What it received before is dropped; closing restores its settings.
+--- Opens a serial line for raw bytes, exclusively for this process. Earlier input is discarded; closing restores the settings of the line.
 ---@param options table
 ---@option path string  the device: "/dev/ttyUSB0"
----@option baud? integer [bit/s, > 0] = 9600  any rate that the device accepts
+---@option baud? integer [bit/s, > 0] = 9600  any rate that the device supports
 ---@option data_bits? integer [5 to 8] = 8
 ---@option stop_bits? integer [1 to 2] = 1
 ---@option parity? "none"|"even"|"odd"

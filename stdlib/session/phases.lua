@@ -1,4 +1,4 @@
---- Closing phases of a grasp: steps in which a hand gets from its pregrasp to the grasp. Each is a table with a kind:
+--- Closing phases of a grasp: steps by which a hand moves from its pregrasp to the grasp. Each is a table with a kind:
 --- {kind = "approach", reach = [m]} moves the hand until it touches, {kind = "posture", dofs = {...}} drives the DOFs towards values until contact stops them,
 --- {kind = "close"} closes the hand.
 local described = require "clench.described"

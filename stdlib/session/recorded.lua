@@ -1,8 +1,8 @@
---- The recording of a session's last run: states of the world at a rate of its time, as world:record keeps them.
+--- The recording of a session's last run: states of the world at a rate in simulation time, as stored by world:record.
 local recorded = {}
 
-local rate = 30  -- states per second of the world's time [Hz]
-local max_states = 10000  -- of one recording
+local rate = 30  -- states per second of simulation time [Hz]
+local max_states = 10000  -- maximum number of states of one recording
 
 --- Records the world until `recorded.stop`; the recording becomes `session.recording`.
 ---@param seconds? number  length of the run, if it is known: a long one is recorded at a lower rate

@@ -44,7 +44,7 @@ local function count(session)
   return (glove and glove.count or 0) + (tracker and tracker.count or 0)
 end
 
--- one turn: an error, such as a lost device, ends the following and becomes a diagnostic
+-- one turn of `follow`; an error, such as a lost device, ends it, and becomes a diagnostic
 local function turn(session, following)
   local now = count(session)
   if now == following.count and sensed.can_apply(session) then return end
@@ -69,7 +69,7 @@ function sensed.follow(session)
   end)
 end
 
--- a mirror of the current hand, which a driver serves whose values are as many
+-- a mirror of the current hand; the device must have as many values as the hand has DOFs
 local function mirror_of(session, device, max_speed)
   local given, expected = #sensors.reading(session, "hand"), #session.hand.dofs
   if given ~= expected then raise(("session: the real hand has %d DOFs, and %s has %d"):format(given, session.hand.name, expected)) end
@@ -97,7 +97,7 @@ end
 function sensed.push(session, max_speed, continuous)
   sensors.reading(session, "hand")
   local sensor, hand = session.sensors.hand, session.hand
-  if sensor.task then raise "session: the real hand moves already" end
+  if sensor.task then raise "session: the real hand is already moving" end
   local mirror = mirror_of(session, sensor.device, max_speed)
   local arrived  -- DOFs at which the real hand is
   sensor.task = function()

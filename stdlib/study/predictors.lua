@@ -77,9 +77,9 @@ local function read_measures(read, grasp_names)
   return names
 end
 
---- How well do measures of quality predict that a grasp survives the six-direction force test? Computes for each the area under the ROC curve: the probability
---- that the survivor of a pair, one survivor and one lost grasp, has the better value. 0.5 is chance level. The interval covers the area with 95 % confidence
---- (Hanley and McNeil 1982). The grasps are applied to copies of the world, in any number of threads.
+--- Tests how well measures of quality predict that a grasp survives the six-direction force test. Computes for each measure the area under the ROC curve: the
+--- probability that the survivor of a pair, one survivor and one lost grasp, has the better value. 0.5 is chance level. The interval covers the area with 95
+--- % confidence (Hanley and McNeil 1982). The grasps are applied to copies of the world, in any number of threads.
 ---@param grasps grasp[]|grasps  grasps to measure and shake
 ---@param options table  hand, object, measures and settings of shaking
 ---@option hand robot  hand of all grasps

@@ -1,15 +1,15 @@
---- The session's script, kept while it is unsaved, so that a crash loses at most seconds of work; the next start offers what is left.
---- Each viewer writes a file of its own, whose first line says which process wrote it.
+--- Stores the script of the session while it is unsaved, so that a crash loses at most seconds of work; the next start offers to restore it.
+--- Each viewer writes a separate file, whose first line identifies the process that wrote it.
 local error_text = require "clench.error_text"
 local history = require "clench.session.history"
 local user_files = require "clench.view.user_files"
 local autosave = {}
 
-local quiet_time, longest_time = 5, 60  -- after the last and the first change that are not kept yet [s]
+local quiet_time, longest_time = 5, 60  -- delays after the last and the first change that is not stored yet [s]
 local max_files = 20
 local mark = "-- autosave "
 
--- number and start of a process: a number alone is given to another process later
+-- number and start time of a process: the number alone may be reused by another process
 local function process(id)
   local text = user_files.read(("/proc/%s/stat"):format(id))
   if not text then return nil end
@@ -20,7 +20,7 @@ end
 
 local function name_of(folder, i) return ("%s/autosave-%d.lua"):format(folder, i) end
 
---- Scripts that processes have left which are no longer there.
+--- Scripts of processes that no longer exist.
 ---@param folder string
 ---@return {file: string, path?: string, folder?: string, time: string, lines: string}[]
 function autosave.left(folder)
@@ -52,15 +52,15 @@ local function add_command(session)
                    run = function(self, args) restore(self, args.lines) end, script = function(_, args) return args.lines end}
 end
 
--- the script with the line that says whose it is
+-- the script, preceded by the line that identifies its process
 local function text_of(session)
   local own = process "self" or {}
   return ("%s%s\n%s\n"):format(mark, clench.json.encode {id = own.id, start = own.start, path = session.path, folder = os.getenv "PWD",
                                                          time = os.date "%Y-%m-%d %H:%M"}, session:script())
 end
 
---- Follows a view: keeps its session's script in a folder while it is unsaved, and offers what earlier viewers have left there.
----@param folder? string  nil: nothing is kept
+--- Stores the script of a view's session in a folder while it is unsaved, and offers to restore the scripts of earlier viewers.
+---@param folder? string  nil: nothing is stored
 ---@return {tick: fun(now: number), flush: fun(), finish: fun()}
 function autosave.keep(view, folder)
   local session = view.session
@@ -115,7 +115,7 @@ local function take(view, offer)
   table.remove(view.left, 1)
 end
 
---- Draws the offer to restore what an earlier viewer has left, if there is any.
+--- Draws the offer to restore the script of an earlier viewer, if there is any.
 function autosave.draw(view, ui)
   local offer = view.left and view.left[1]
   if not offer then return end

@@ -32,7 +32,7 @@ for i = 1, navigation.bookmark_count do
   own[#own + 1] = {"store " .. i, "Store bookmark " .. i, "shift+f" .. i, function(view) navigation.store(view, i) end}
 end
 
--- the user's shortcut, false for none, else that of the program
+-- the user's shortcut, false if the user has removed it; otherwise the default
 local function chosen(view, name, default)
   local shortcut = view.bindings[name]
   if shortcut == nil then return default end

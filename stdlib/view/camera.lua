@@ -55,7 +55,7 @@ end
 
 --- The camera turned about its target.
 ---@param yaw number  about the vertical axis [rad]
----@param pitch number  upwards [rad]; it stops short of the poles
+---@param pitch number  upwards [rad]; it ends before the poles
 function camera.orbited(c, yaw, pitch)
   local z = clench.vec3(0, 0, 1)
   local offset = c.eye - c.target
@@ -76,7 +76,7 @@ function camera.panned(c, size, dx, dy)
   return with_eye(c, c.eye + shift, c.target + shift)
 end
 
---- The camera nearer to its target by a factor below 1, or farther.
+--- The camera at a distance from its target that is multiplied by a factor.
 function camera.zoomed(c, factor)
   local offset = c.eye - c.target
   if offset:norm() * factor < least_distance then return c end

@@ -1,7 +1,7 @@
 --- Two grasps side by side: their pictures by one camera, which turns with that of the view, and their measures in one table.
 local compare = {}
 
-local width, height = 300, 240  -- of a picture [pixels]
+local width, height = 300, 240  -- size of a picture [pixels]
 local gray, orange = {0.5, 0.5, 0.5}, {0.84, 0.37, 0}
 
 -- the list of chosen grasps, at most two
@@ -11,7 +11,7 @@ local function chosen(view)
 end
 
 --- Is a grasp chosen?
----@param label string  that identifies it
+---@param label string  identifies it
 function compare.has(view, label)
   for _, entry in ipairs(chosen(view)) do
     if entry.label == label then return true end
@@ -19,10 +19,10 @@ function compare.has(view, label)
   return false
 end
 
---- Chooses a grasp, or no longer. Of three, the first is dropped.
----@param label string  that identifies it
+--- Chooses a grasp, or removes it from the choice. A third grasp replaces the first.
+---@param label string  identifies it
 ---@param grasp grasp
----@param short string  name of it among the grasps of its list
+---@param short string  its name within its list
 ---@param source string  name of the list
 function compare.toggle(view, label, grasp, short, source)
   local list = chosen(view)
@@ -36,7 +36,7 @@ function compare.toggle(view, label, grasp, short, source)
   list[#list + 1] = {label = label, short = short, source = source, grasp = grasp, values = {}}
 end
 
--- short names, unless the grasps are of different lists
+-- short names, unless the grasps are from different lists
 local function names_of(list)
   if list[1].source == list[2].source then return {list[1].short, list[2].short} end
   return {list[1].label, list[2].label}
@@ -65,14 +65,14 @@ local function camera_of(view, list)
     first.beside, first.camera = list[2], clench.camera({list[1].world, list[2].world}, {size = {width, height}})
   end
   local base, seen = first.camera, view.camera
-  local distance = 1.2 * (base.eye - base.target):norm()  -- as it was chosen for another direction
+  local distance = 1.2 * (base.eye - base.target):norm()  -- it was chosen for another direction
   return {eye = base.target + (seen.eye - seen.target):unit() * distance, target = base.target, up = seen.up, field_of_view = base.field_of_view}
 end
 
 local function draw_picture(view, ui, entry, number, camera)
   ui:group(function(ui)
     if ui:button("Apply##compared" .. number) then view:run("grasp.apply", {grasp = entry.grasp}) end
-    ui:tooltip "Puts the hand into this grasp."
+    ui:tooltip "Moves the hand to this grasp."
     ui:same_line()
     ui:text(entry.label)
     if entry.error then return ui:text(entry.error, {color = orange, wrap = true}) end
@@ -85,7 +85,7 @@ local function draw_picture(view, ui, entry, number, camera)
   end)
 end
 
--- rows of the table: name, the two values, and which is better where that is known
+-- rows of the table: name, the two values, and the better one, if that is known
 local function rows_of(view, list, names)
   local rows, higher = {}, {}
   for _, measure in ipairs(view.known_measures or {}) do higher[measure.name] = measure.higher_is_better end
@@ -117,7 +117,7 @@ local function draw_table(view, ui, list)
   end)
 end
 
---- Draws the window, while two grasps are chosen.
+--- Draws the window while two grasps are chosen.
 function compare.draw(view, ui)
   local list = view.compared
   if not list or #list < 2 or not view.session.world then return end

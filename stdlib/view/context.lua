@@ -1,4 +1,4 @@
---- The menu of a right click, in the picture and in the tree: what can be done with the thing under the mouse, or with all that is selected with it.
+--- The menu of a right click, in the picture and in the tree: commands for the body under the mouse, or for the complete selection if it is selected.
 local dialog = require "clench.view.dialog"
 local navigation = require "clench.view.navigation"
 local selection = require "clench.view.selection"
@@ -30,7 +30,7 @@ local function draw_robot(view, ui, robot)
 end
 
 --- Entries for a body or robot.
----@param point? vec3  of it that was clicked on [m]
+---@param point? vec3  clicked point of its surface [m]
 function context.draw_thing(view, ui, thing, point)
   local is_robot = clench.type(thing) == "robot"
   local robot = is_robot and thing or thing.robot
@@ -84,7 +84,7 @@ function context.draw(view, ui)
   if not is_open then view.context = nil end
 end
 
---- The menu of the last widget, which stands for a body or robot.
+--- The menu of the last widget, which represents a body or robot.
 function context.of_widget(view, ui, thing)
   ui:context_menu("menu of " .. view:address(thing), function(ui) context.draw_thing(view, ui, thing) end)
 end

@@ -6,14 +6,14 @@ local dialog = {}
 
 local function is_planner(command) return command.name:find "^planner%." ~= nil end
 
--- what a field shows for a value of any type
+-- text that a field shows for a value of any type
 local function shown(value)
   if value == nil then return "" end
   if type(value) == "table" then return require("clench.session.script").literal(value) end
   return tostring(value)
 end
 
--- the value of a typed text; nil where it is empty
+-- the value of a typed text; nil if it is empty
 local function read(parameter, text)
   if text == "" then return nil end
   if parameter.type == "number" then return tonumber(text) or text end
@@ -80,9 +80,9 @@ local function run(view, command, state)
   if is_planner(command) then state.job, state.rank = result, nil else view.dialogs[command.name] = nil end
 end
 
-local leaving = {["world.new"] = "new", ["world.open"] = "open"}  -- commands that leave the world
+local leaving = {["world.new"] = "new", ["world.open"] = "open"}  -- commands that close the world
 
---- Opens the dialog of a command; one without parameters that must be given, and without "…" in its label, runs at once.
+--- Opens the dialog of a command; a command without required parameters and without "…" in its label runs at once.
 function dialog.open(view, command)
   local purpose = leaving[command.name]
   if purpose and not view.leaving then
@@ -103,7 +103,7 @@ function dialog.fill(view, command)
   local state = {texts = {}}
   for _, parameter in ipairs(command.parameters or {}) do state[parameter.name] = parameter.default end
   if is_planner(command) then state.hand, state.object = view.session.hand.name, view.session.object.name end
-  -- in a window a search is watched and stopped by hand: its time, not its steps, bounds it
+  -- in a window the user watches and stops a search: it is limited by time, not by steps
   if is_planner(command) and state.steps then state.steps, state.seconds = 10000000, 60 end
   view.dialogs[command.name] = state
 end
@@ -121,7 +121,7 @@ local function draw_fields(view, ui, command, state, height)
   end)
 end
 
--- a planner's dialog stays open: its controls stand above the fields
+-- a planner's dialog stays open: its controls are above the fields
 local function draw_planner(view, ui, command, state)
   results.draw(view, ui, state, function() run(view, command, state) end)
   if state.error then ui:text(state.error, {color = {0.84, 0.37, 0}, wrap = true}) end

@@ -1,11 +1,11 @@
---- Drags of bodies and robots: the pose that the mouse asks for, and the motion there, which contact stops.
+--- Drags of bodies and robots: the pose requested by the mouse, and the motion towards it, which contact stops.
 local camera = require "clench.view.camera"
 local manipulator = require "clench.view.manipulator"
 local drags = {}
 
 local rotate_speed = math.pi / 300  -- [rad per pixel]
-local step, angle_step = 0.01, math.pi / 12  -- of snapping [m, rad]
-local edge_on = 0.15  -- least sine of the angle between the view and the plane of a ring
+local step, angle_step = 0.01, math.pi / 12  -- steps of snapping [m, rad]
+local edge_on = 0.15  -- minimum sine of the angle between the view and the plane of a ring
 
 local function snapped(value, by, snaps) return snaps and math.floor(value / by + 0.5) * by or value end
 
@@ -13,7 +13,7 @@ local function about(center, axis, angle)
   return clench.pose {xyz = center} * clench.pose {axis = axis, angle = angle} * clench.pose {xyz = center * -1}
 end
 
---- Where the ray of a pixel passes nearest to a line: the distance along its axis from a point [m]; nil of a line along the view.
+--- The point of a line that is nearest to the ray of a pixel, by its distance along the line from a point [m]; nil for a line along the view.
 function drags.along(view, point, axis, x, y)
   local origin, direction = camera.ray(view.camera, view.ui.size, x, y)
   local cosine = axis:dot(direction)
@@ -23,7 +23,7 @@ function drags.along(view, point, axis, x, y)
   return (cosine * direction:dot(between) - axis:dot(between)) / square
 end
 
--- where the ray of a pixel meets a plane; nil of a plane seen edge on
+-- intersection of the ray of a pixel with a plane; nil for a plane seen edge-on
 local function on_plane(view, point, normal, x, y, least)
   local origin, direction = camera.ray(view.camera, view.ui.size, x, y)
   local cosine = direction:dot(normal)
@@ -31,12 +31,12 @@ local function on_plane(view, point, normal, x, y, least)
   return origin + direction * ((point - origin):dot(normal) / cosine)
 end
 
---- Measures how far the mouse goes round an axis: each call returns the angle since the start, beyond a turn, too [rad].
+--- Measures the angle by which the mouse turns about an axis: each call returns the angle since the start, which may exceed a turn [rad].
 ---@return fun(x: number, y: number): number
 function drags.turning(view, center, axis, x, y)
   local start = on_plane(view, center, axis, x, y, edge_on)
   if not start then
-    -- seen edge on: along the line that the ring has on the screen
+    -- seen edge-on: along the line of the ring on the screen
     local radius = manipulator.length
     local right, up, back = camera.axes(view.camera)
     local tangent = axis:cross(back):unit()
@@ -109,7 +109,7 @@ end
 
 --- Begins a drag of a body or robot.
 ---@param target body|robot
----@param handle? table  of the manipulator; nil: freely, from the picked point
+---@param handle? table  handle of the manipulator; nil: moves freely, by the picked point
 ---@return table drag
 function drags.begin(view, target, handle, point, x, y)
   local drag = {target = target, pose = target.pose, center = manipulator.center(target), point = point, x = x, y = y, handle = handle and handle.name}
@@ -119,7 +119,7 @@ function drags.begin(view, target, handle, point, x, y)
   return drag
 end
 
--- a robot on an arm is brought there by the arm, from where it stands
+-- a robot on an arm is moved by the arm, from its present posture
 local function move_mounted(robot, pose)
   local arm = robot.parent
   local found = arm:ik(robot.base, pose, {starts = 1})
@@ -133,7 +133,7 @@ local function touched(result)
 end
 drags.touched = touched
 
---- Moves the target of a drag towards the pose that the mouse asks for.
+--- Moves the target of a drag towards the pose requested by the mouse.
 function drags.move(view, drag, x, y, snaps, constrains)
   local pose, text = drag.pose_at(x, y, snaps, constrains)
   local target, result, miss = drag.target, nil, nil

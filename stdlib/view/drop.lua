@@ -16,7 +16,7 @@ local function take(view, path)
   end
 end
 
---- Takes the files that were dropped since the last frame.
+--- Handles the files that were dropped since the last frame.
 return function(view)
   for _, path in ipairs(view.ui:take_dropped()) do take(view, path) end
 end

@@ -1,9 +1,9 @@
---- What the console shows of commands: the Lua that does the same, and results in a few readable lines.
+--- Shows commands in the console: Lua with the same effect, and results in a few readable lines.
 local script = require "clench.session.script"
 local echo = {}
 
-local longest_line = 300  -- of a command's Lua [bytes]
-local most_items = 8  -- of a list
+local longest_line = 300  -- maximum length of a command's Lua [bytes]
+local most_items = 8  -- maximum number of shown items of a list
 
 local function name_of(value)
   local kind = clench.type(value)
@@ -51,7 +51,7 @@ local function print_lua(view, lines)
   end
 end
 
---- Shows what has changed the session, as an event "changed" reports it.
+--- Shows the change of the session that an event "changed" reports.
 function echo.changed(view, event)
   if event.undo then return view:print("session:undo()  -- " .. event.undo, "lua") end
   if event.redo then return view:print("session:redo()  -- " .. event.redo, "lua") end
@@ -61,7 +61,7 @@ end
 
 local function is_empty(result) return clench.type(result) == "table" and next(result) == nil end
 
---- Shows a command that only reads, as the Lua that runs it, and the result of a command.
+--- Shows the result of a command, and for a command that only reads also the Lua that runs it.
 function echo.result(view, command, result, args)
   if command.reads and not command.name:find "^world%.select$" then
     local ok, text = pcall(script.literal, args or {})

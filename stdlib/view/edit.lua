@@ -1,4 +1,4 @@
---- Widgets whose value becomes a command when the user has finished: while it is edited, the value is kept beside the world.
+--- Widgets whose value becomes a command when the user has finished: while it is edited, the value is stored separately from the world.
 local edit = {}
 
 --- A number that is dragged or typed.
@@ -16,7 +16,7 @@ function edit.number(view, ui, label, key, current, options)
   return value
 end
 
---- The value that all things of a list have; nil where they differ.
+--- The value common to all items of a list; nil if they differ.
 ---@param f fun(thing: any): any
 function edit.common(list, f)
   local first = list[1] and f(list[1])

@@ -1,13 +1,13 @@
---- The life of a window: frames are drawn when something has changed, and the window closes when the user asks for it.
+--- Runs a window: draws frames when something has changed, and closes the window when the user requests it.
 local is_stopped = require "clench.is_stopped"
 local leave = require "clench.view.leave"
 
-local poll_time = 1 / 60  -- between looks at the input [s]
-local redraw_time = 1 / 30  -- at least, between frames that no input asks for [s]
-local settling_frames = 2  -- after input, in which widgets settle
-local max_failures = 10  -- frames in a row
+local poll_time = 1 / 60  -- period of polling the input [s]
+local redraw_time = 1 / 30  -- minimum time between frames without input [s]
+local settling_frames = 2  -- number of frames after input, in which widgets settle
+local max_failures = 10  -- maximum number of successive frames that fail
 
--- a frame that fails is reported; one that always fails ends the view
+-- a frame that fails is reported; repeated failures end the view
 local function draw(view, now)
   local ok, problem = pcall(view.frame, view)
   view.last_frame = now
@@ -20,7 +20,7 @@ local function draw(view, now)
   view:fail(problem)
 end
 
--- the file and whether it is saved, in the title of the window
+-- shows the file, and whether it is saved, in the title of the window
 local function show_title(view)
   local file = view.session.path and view.session.path:match "[^/]+$" or "Untitled"
   local title = ("%s%s - %s"):format(file, view.session:is_modified() and " *" or "", view.title or "Clench")

@@ -1,9 +1,9 @@
---- Frames over the picture: the three axes of a pose, x vermilion, y green, z blue.
+--- Coordinate frames over the picture: the three axes of a pose, x vermilion, y green, z blue.
 local camera = require "clench.view.camera"
 local handles = require "clench.view.handles"
 local frames = {}
 
-local length = 0.05  -- of an axis [m]
+local length = 0.05  -- length of an axis [m]
 
 --- Draws the axes of a pose.
 ---@param name? string  drawn at its origin

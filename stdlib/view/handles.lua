@@ -1,11 +1,11 @@
---- Handles that are drawn over the picture and dragged: lines of pixels with a name, a color and the axis that they stand for.
+--- Handles that are drawn over the picture and dragged: lines of pixels with a name, a color and the axis that they represent.
 local camera = require "clench.view.camera"
 local handles = {}
 
-local reach = 9  -- of the mouse [pixels]
+local reach = 9  -- distance within which the mouse is over a handle [pixels]
 local highlight = {1, 0.85, 0.1, 1}
 
--- vermilion, green and blue: told apart by the color-blind
+-- vermilion, green and blue: distinguishable by the color-blind
 handles.colors = {{0.84, 0.37, 0, 0.95}, {0, 0.62, 0.45, 0.95}, {0, 0.45, 0.7, 0.95}}
 
 --- Any two unit vectors that span the plane normal to an axis, counter-clockwise about it.
@@ -43,7 +43,7 @@ local function distance_to_segment(x, y, ax, ay, bx, by)
   return math.sqrt((x - ax - t * dx) ^ 2 + (y - ay - t * dy) ^ 2)
 end
 
---- The handle under a pixel, the nearest; nil where there is none.
+--- The handle under a pixel, the nearest one; nil if there is none.
 function handles.at(list, x, y)
   local best, least = nil, reach
   for _, handle in ipairs(list) do
@@ -74,7 +74,7 @@ local function draw_head(ui, line, color)
   ui:line({x - dx - dy * 0.5, y - dy + dx * 0.5, x, y, x - dx + dy * 0.5, y - dy - dx * 0.5}, {color = color, width = 3})
 end
 
---- Draws handles; the hovered or dragged one stands out, with its name and value.
+--- Draws handles; the hovered or dragged one is highlighted, with its name and value.
 ---@param hovered? string  name of a handle
 function handles.draw(ui, list, hovered)
   for _, handle in ipairs(list) do

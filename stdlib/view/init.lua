@@ -20,7 +20,7 @@ function view.offscreen(options)
 end
 
 --- Opens a window. Its frames are drawn while clench.loop runs; view:wait() shows it until it is closed.
----@param what session|world  what it shows
+---@param what session|world  session or world to show
 ---@param options? {size?: number[], dark?: boolean, scale?: number, title?: string}  size: width and height [pixels]
 ---@return table view
 function view.open(what, options)

@@ -1,4 +1,4 @@
---- Synthetic input of a view, as a user's mouse and keyboard would give it. Each function returns when all of it has been handled.
+--- Synthetic input of a view, like that of a user's mouse and keyboard. Each function returns when all of its input has been handled.
 local check = require "clench.view.check"
 local context = require "clench.view.context"
 local described = require "clench.described"
@@ -9,7 +9,7 @@ local input = {}
 
 local max_steps = 10000  -- of a drag
 
--- draws frames until no input waits, and one more in which widgets have settled
+-- draws frames until no input waits, and one more in which widgets settle
 local function settle(view)
   local count = 0
   repeat

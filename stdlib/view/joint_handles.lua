@@ -4,9 +4,9 @@ local handles = require "clench.view.handles"
 local manipulator = require "clench.view.manipulator"
 local joint_handles = {}
 
-local radius = 70  -- of arcs [pixels]
+local radius = 70  -- radius of arcs [pixels]
 local tick = 9  -- length of the marks at limits, on either side [pixels]
-local angle_step, step = math.pi / 12, 0.01  -- of snapping [rad, m]
+local angle_step, step = math.pi / 12, 0.01  -- steps of snapping [rad, m]
 
 local function chain_of(robot, link)
   for _, chain in ipairs(robot.chains) do

@@ -14,12 +14,12 @@ local layout = {}
 
 local menu_height, bar_height, status_height = 24, 36, 28  -- at scale 1 [pixels]
 local line_height = 28  -- of widgets at scale 1 [pixels]
-local tall_share = 0.72  -- of the height of its column
-local user_panels = {}  -- that scripts have added, by name and in order
+local tall_share = 0.72  -- fraction of the height of its column
+local user_panels = {}  -- panels that scripts have added, by name and in order
 
 local own_panels = {"tree", "quality", "inspector", "jobs", "eigengrasps", "wrench_space", "friction", "virtual_contacts", "forces", "tendons", "author", "sensors", "display", "console", "time_line", "history", "gallery", "plots"}
 
---- The panels of a view: its own, and those of the user.
+--- The panels of a view: built-in ones, and those of the user.
 function layout.panels()
   local list = {}
   for i, name in ipairs(own_panels) do list[i] = require("clench.view.panels." .. name) end
@@ -98,7 +98,7 @@ local function draw_column(view, ui, place, x, y, width, height)
   end
   local count = #rows + (#tabs > 0 and 1 or 0)
   local each = count > 0 and height / count or 0
-  -- a tall panel leaves the others less
+  -- a tall panel reduces the space of the others
   local shared = height - #rows * each
   if #tabs > 0 and #rows > 0 and front_of(view, place, tabs).tall then
     shared = math.max(shared, height * tall_share)
@@ -193,8 +193,8 @@ local function draw_question(view, ui)
   autosave.draw(view, ui)
 end
 
--- bars and panels have the scale of the text
-local function follow_scale(view) view.scale = view.ui.line_height / line_height end
+--- Gives bars and panels the scale of the text; within a frame.
+function layout.follow_scale(view) view.scale = view.ui.line_height / line_height end
 
 -- where the columns and the bottom row end, as far as they have panels [pixels]
 local function edges_of(view, width, height)
@@ -212,7 +212,6 @@ end
 function layout.uncovered(view)
   local width, height = view.ui.size[1], view.ui.size[2]
   if not view.panels_visible then return 0, 0, width, height end
-  follow_scale(view)
   local edges = edges_of(view, width, height)
   local left, right = edges.left and edges.left.at or 0, edges.right and edges.right.at or width
   local top, bottom = (menu_height + bar_height) * view.scale, edges.bottom and edges.bottom.at or height - status_height * view.scale
@@ -222,7 +221,6 @@ end
 --- Draws all panels.
 function layout.draw(view, ui)
   local width, height = ui.size[1], ui.size[2]
-  follow_scale(view)
   local menu, status = menu_height * view.scale, status_height * view.scale
   menus.draw(view, ui)
   draw_bar(view, ui, menu, width)

@@ -1,10 +1,10 @@
---- The question about unsaved changes, before the world is left for another one or for good.
+--- Asks about unsaved changes before the world is replaced or the program ends.
 local leave = {}
 
---- Does what leaves the world: at once if nothing is unsaved, else after the question.
+--- Calls a function that closes the world: at once if nothing is unsaved, otherwise after the question.
 ---@param view table
 ---@param purpose "exit"|"new"|"open"
----@param go fun()  what leaves the world
+---@param go fun()  closes the world
 function leave.ask(view, purpose, go)
   if not view.session:is_modified() then return go() end
   view.leaving = {purpose = purpose, go = go}

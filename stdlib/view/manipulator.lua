@@ -1,12 +1,12 @@
---- The manipulator of what is selected: with the Translate tool arrows along the axes of the world, with the Rotate tool rings about them.
+--- The manipulator of the selection: with the Translate tool, arrows along the axes of the world; with the Rotate tool, rings about them.
 local camera = require "clench.view.camera"
 local handles = require "clench.view.handles"
 local manipulator = {}
 
-manipulator.length = 100  -- of arrows, and radius of rings [pixels]
+manipulator.length = 100  -- length of arrows, and radius of rings [pixels]
 local length = manipulator.length
-local gap = 16  -- between the center and an arrow [pixels]
-local least_length = 14  -- of an arrow that is seen from its end [pixels]
+local gap = 16  -- gap between the center and an arrow [pixels]
+local least_length = 14  -- minimum length of an arrow; shorter ones are seen end-on [pixels]
 
 local axes = {{"x", 1, 0, 0}, {"y", 0, 1, 0}, {"z", 0, 0, 1}}
 
@@ -20,7 +20,7 @@ function manipulator.pixel(view, point)
   return 2 * depth * math.tan(c.field_of_view / 2) / view.ui.size[2]
 end
 
---- The body or robot that a drag moves: the robot of a base, the body itself otherwise; nil of a single link.
+--- The body or robot that a drag moves: the robot of a base, otherwise the body itself; nil for a single link.
 function manipulator.target(thing)
   if not thing then return nil end
   if clench.type(thing) == "robot" or not thing.robot then return thing end
@@ -28,7 +28,7 @@ function manipulator.target(thing)
   return nil
 end
 
---- The center that a drag moves and turns about: the center of mass of a body, or of a robot's base.
+--- The center that a drag moves, or about which it turns: the center of mass of a body, or of a robot's base.
 function manipulator.center(target)
   local body = clench.type(target) == "robot" and target.base or target
   return body.pose * body.com

@@ -5,7 +5,7 @@ local measure = {}
 
 local color = {0.45, 0.1, 0.5, 1}
 
---- Distance of the last two points, and angle at the second of three; nil where there are too few.
+--- Distance of the last two points, and angle at the second of three; nil if there are too few.
 ---@return number? distance [m]
 ---@return number? angle [rad]
 function measure.values(points)
@@ -21,7 +21,7 @@ local function shown(view, distance)
   return view.units.length == "mm" and ("%.2f mm"):format(distance * 1000) or ("%.5f m"):format(distance)
 end
 
---- Adds the point under a pixel; after three points it begins anew, beside everything it ends.
+--- Adds the point under a pixel; a fourth point begins a new measurement, and a click on nothing ends it.
 function measure.click(view, x, y)
   local hit = view:pick(x, y)
   local points = view.measured

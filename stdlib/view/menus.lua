@@ -1,4 +1,4 @@
---- The menu bar: menus of the session's commands, in the order of the original's, and those of the view itself.
+--- The menu bar: menus of the session's commands, in the order of GraspIt!, and those of the view itself.
 local bindings = require "clench.view.bindings"
 local dialog = require "clench.view.dialog"
 local navigation = require "clench.view.navigation"

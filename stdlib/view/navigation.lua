@@ -1,4 +1,4 @@
---- Navigation: how mouse and keys move the camera, in the manner of the original or of Blender; seek, home and bookmarks.
+--- Navigation: mouse and keys move the camera, as in GraspIt! or in Blender; seek, home and bookmarks.
 local camera = require "clench.view.camera"
 local navigation = {}
 
@@ -8,7 +8,7 @@ navigation.bookmark_count = 4
 local orbit_speed = math.pi / 400  -- [rad per pixel]
 local zoom_speed = 0.005  -- logarithm of the distance per pixel
 
--- what a drag does, by style: orbit, pan or zoom
+-- effect of a drag, by style: orbit, pan or zoom
 local function action_of(view, mouse, ctrl, shift)
   if view.navigation == "Blender" and mouse.middle.down then return shift and "pan" or ctrl and "zoom" or "orbit" end
   if mouse.left.down and mouse.middle.down then return "zoom" end
@@ -16,7 +16,7 @@ local function action_of(view, mouse, ctrl, shift)
   return "orbit"
 end
 
---- Moves the camera by the mouse of this frame.
+--- Moves the camera according to the mouse in this frame.
 function navigation.drag(view, mouse, ctrl, shift)
   local action = action_of(view, mouse, ctrl, shift)
   if action == "pan" then
@@ -35,7 +35,7 @@ function navigation.seek(view, point)
   view.needs_frame = true
 end
 
---- Seeks what lies under a pixel.
+--- Seeks the point under a pixel.
 ---@return boolean found
 function navigation.seek_pixel(view, x, y)
   local hit = view:pick(x, y)
@@ -55,7 +55,7 @@ function navigation.store(view, number)
   view.status = ("Bookmark %d stored"):format(number)
 end
 
---- Takes the camera of a bookmark.
+--- Restores the camera of a bookmark.
 function navigation.recall(view, number)
   if not view.bookmarks[number] then
     view.status = ("Bookmark %d is empty; Shift+F%d stores it."):format(number, number)
@@ -64,7 +64,7 @@ function navigation.recall(view, number)
   view.camera, view.needs_frame = view.bookmarks[number], true
 end
 
---- Makes the camera the one that Home returns to, until another world is opened.
+--- Makes the present camera the one that Home restores, until another world is opened.
 function navigation.set_home(view)
   view.home_camera = view.camera
   view.status = "Home is here now"

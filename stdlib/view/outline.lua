@@ -1,10 +1,10 @@
---- Outlines of what is selected: around each body the convex outline of its surface on the screen.
+--- Outlines of the selection: around each body, the convex outline of its surface on the screen.
 local camera = require "clench.view.camera"
 local replay = require "clench.view.replay"
 local outline = {}
 
 local direction_count = 96
-local max_vertices = 50000  -- of a mesh whose points are searched; others are outlined by their box
+local max_vertices = 50000  -- maximum number of vertices of a mesh that are searched; larger meshes are outlined by their boxes
 local color = {0.95, 0.6, 0, 0.95}
 
 -- directions spread evenly over a sphere
@@ -92,7 +92,7 @@ local function draw_body(view, ui, body)
   if #line >= 6 then ui:line(line, {color = color, width = 2, closed = true}) end
 end
 
---- Draws the outlines of what is selected.
+--- Draws the outlines of the selection.
 function outline.draw(view, ui)
   for _, thing in ipairs(view.session.selection) do
     for _, body in ipairs(clench.type(thing) == "robot" and thing.bodies or {thing}) do draw_body(view, ui, body) end

@@ -11,7 +11,7 @@ end
 
 local function is_busy(job) return job and (job.state == "running" or job.state == "queued" or job.state == "paused") end
 
--- puts the hand into a grasp of the job
+-- moves the hand to a grasp of the job
 local function show(view, state, rank)
   state.rank = rank
   view:run("grasp.apply", {job = number_of(view.session, state.job), rank = rank})
@@ -57,7 +57,7 @@ local function draw_steps(view, ui, state, grasps)
 end
 
 --- Draws the controls of a planner.
----@param state table  of the dialog: `job` once it was started
+---@param state table  of the dialog: `job` once it has started
 ---@param start fun()  starts the search
 function results.draw(view, ui, state, start)
   draw_controls(view, ui, state, start)

@@ -1,4 +1,4 @@
---- Variables of an eigengrasp planner: which are searched, and targets that they stay near, each with a confidence.
+--- Variables of an eigengrasp planner: which of them are searched, and targets near which they stay, each with a confidence.
 local variables = {}
 
 local searches = {["planner.anneal"] = true, ["planner.loop"] = true, ["planner.guided"] = true}
@@ -18,7 +18,7 @@ local function names_of(view, state)
   if state.variable_key ~= key then
     state.variable_key, state.variable_names = key, {}
     local ok, values = pcall(function()
-      local copy = session.world:clone()  -- as a search moves its hand
+      local copy = session.world:clone()  -- because a search moves its hand
       return clench.annealing {hand = session.hand:in_world(copy), object = session.object:in_world(copy), energy = function() return 0 end,
                                position = state.position, posture = state.posture}.values
     end)
@@ -29,7 +29,7 @@ local function names_of(view, state)
   return state.variable_names
 end
 
--- the options that the rows stand for
+-- the options that the rows represent
 local function apply(state)
   local targets, fixed = {}, {}
   for name, row in pairs(state.variable_rows) do

@@ -1,4 +1,4 @@
---- What the viewer keeps of a user's choices from one run to the next: theme, units, navigation, keys, panels that are hidden or in front, sizes of the window
+--- Settings that the viewer stores from one run to the next: theme, units, navigation, keys, panels that are hidden or in front, sizes of the window
 --- and of panels, recent files.
 local error_text = require "clench.error_text"
 local keys = require "clench.view.keys"
@@ -9,7 +9,7 @@ local user_files = require "clench.view.user_files"
 local preferences = {}
 
 local max_recent = 10
-local interval = 1  -- between two looks at what has changed [s]
+local interval = 1  -- time between two checks for changes [s]
 
 local function sorted_keys(set)
   local list = {}
@@ -28,7 +28,7 @@ local function text_of(view)
                              size = {math.tointeger(size[1]), math.tointeger(size[2])}, recent = view.recent}, {indent = 2}) .. "\n"
 end
 
--- the texts of a list; none of anything else
+-- the texts of a list; no texts for any other value
 local function texts_of(list)
   local texts = {}
   for _, text in ipairs(type(list) == "table" and list or {}) do
@@ -37,7 +37,7 @@ local function texts_of(list)
   return texts
 end
 
---- Reads the settings of a file; an empty table if there is none. Raises an error where it is damaged.
+--- Reads the settings of a file; an empty table if there is none. Raises an error if it is damaged.
 function preferences.read(path)
   local text = path and user_files.read(path)
   if not text then return {} end
@@ -48,7 +48,7 @@ function preferences.read(path)
   return said
 end
 
---- Size of the window when it was closed last; nil if that is not known.
+--- Size of the window when it was last closed; nil if unknown.
 function preferences.size()
   local folder = user_files.settings()
   local ok, said = pcall(preferences.read, folder and folder .. "/viewer.json")
@@ -88,7 +88,7 @@ local function apply(view, said)
   apply_arrangement(view, said)
 end
 
---- Notes a file that was opened.
+--- Records a file that was opened.
 function preferences.add_recent(view, path)
   path = user_files.absolute(path)
   local list = {path}
@@ -98,7 +98,7 @@ function preferences.add_recent(view, path)
   view.recent = list
 end
 
---- Opens a recent file; one that has vanished leaves the list.
+--- Opens a recent file; one that no longer exists is removed from the list.
 function preferences.open_recent(view, path)
   leave.ask(view, "open", function()
     if view:run("world.open", {path = path}) or view.session.path == path then return end
@@ -108,8 +108,8 @@ function preferences.open_recent(view, path)
   end)
 end
 
---- Follows a view: applies the settings of a file to it, and keeps them there as they change.
----@param path? string  nil: nothing is kept
+--- Applies the settings of a file to a view, and stores them there when they change.
+---@param path? string  nil: nothing is stored
 ---@return {tick: fun(now: number), finish: fun()}
 function preferences.keep(view, path)
   local ok, said = pcall(preferences.read, path)

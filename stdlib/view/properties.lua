@@ -1,10 +1,10 @@
---- Body properties of all that is selected: material, collisions, transparency, mass. Each change is one command for all of it.
+--- Body properties of the selection: material, collisions, transparency, mass. Each change is one command for the complete selection.
 local edit = require "clench.view.edit"
 local properties = {}
 
 local gray = {0.5, 0.5, 0.5}
 
--- bodies of the selection; of a robot, all its links
+-- bodies of the selection; for a robot, all its links
 local function bodies_of(selection)
   local list = {}
   for _, thing in ipairs(selection) do
@@ -26,7 +26,7 @@ local function draw_material(view, ui, bodies)
   if changed then view:run("body.material", {material = names[chosen]}) end
 end
 
--- do the selected bodies collide? With two of them: with each other
+-- do the selected bodies collide? If two are selected: with each other
 local function collide(world, selection)
   if #selection == 2 then return world:may_collide(selection[1], selection[2]) end
   return edit.common(selection, function(thing) return world:may_collide(thing) end) ~= false
@@ -76,7 +76,7 @@ function properties.draw(view, ui)
   local bodies = bodies_of(selection)
   local kind = edit.common(bodies, function(body) return body.kind end)
   ui:text(("%s%s"):format(kind or "several kinds", #bodies > 1 and (", %d bodies"):format(#bodies) or ""), {color = gray})
-  if kind == "obstacle" then ui:tooltip "An obstacle stands still while dynamics play." end
+  if kind == "obstacle" then ui:tooltip "Obstacles do not move while dynamics play." end
   draw_material(view, ui, bodies)
   draw_mass(view, ui, bodies)
   draw_transparency(view, ui, bodies)

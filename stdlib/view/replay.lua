@@ -5,7 +5,7 @@ local replay = {}
 
 replay.speeds = {0.1, 0.25, 0.5, 1, 2, 4}
 
---- The recording of the open world; nil if there is none of two states or more.
+--- The recording of the open world; nil if there is none with two states or more.
 function replay.recording(view)
   local recording = view.session.recording
   if recording and recording.world == view.session.world and #recording.times > 1 then return recording end
@@ -14,14 +14,14 @@ end
 --- The world that the picture shows: a recorded state, or the session's world.
 function replay.world(view) return view.replay and view.replay.world or view.session.world end
 
---- A body or robot of the session's world in the world that the picture shows.
+--- The counterpart of a body or robot of the session's world in the world that the picture shows.
 function replay.shown(view, thing)
   if not view.replay then return thing end
   local ok, there = pcall(thing.in_world, thing, view.replay.world)
   return ok and there or thing
 end
 
---- What a ray has hit in the shown world, with the body of the session's world; nil if that body was removed since.
+--- The hit of a ray in the shown world, with the body of the session's world; nil if that body has been removed since.
 function replay.to_live(view, hit)
   if not view.replay then return hit end
   local ok, body = pcall(hit.body.in_world, hit.body, view.session.world)
@@ -31,7 +31,7 @@ function replay.to_live(view, hit)
 end
 
 --- Shows a recorded state.
----@param index integer  the nearest one is shown if there is none
+---@param index integer  the nearest one is shown if it does not exist
 function replay.show(view, index)
   local recording = replay.recording(view)
   if not recording then return end
@@ -76,7 +76,7 @@ function replay.play(view)
   view.needs_frame = true
 end
 
---- Shows the state that is due, while the replay plays.
+--- Shows the state for the present time of the replay, while it is running.
 ---@param dt number  time since the last frame [s]
 function replay.advance(view, dt)
   if not replay.is_playing(view) then return end

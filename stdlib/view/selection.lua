@@ -1,4 +1,4 @@
---- The selection as clicks in the picture and in the tree change it: a click chooses, with Shift it adds or takes away.
+--- Changes of the selection by clicks in the picture and in the tree: a click selects; with Shift it adds to or removes from the selection.
 local selection = {}
 
 --- Is a body or robot selected?
@@ -9,7 +9,7 @@ function selection.has(view, thing)
   return false
 end
 
---- Makes things the selection.
+--- Replaces the selection.
 function selection.set(view, things)
   local addresses = {}
   for i, thing in ipairs(things) do addresses[i] = view:address(thing) end
@@ -17,8 +17,8 @@ function selection.set(view, things)
 end
 
 --- A click on a thing.
----@param thing body|robot|nil  nil: beside everything, which selects nothing unless `adds`
----@param adds boolean  is it added to the selection, or taken from it if it is there?
+---@param thing body|robot|nil  nil: a click on nothing, which clears the selection unless `adds`
+---@param adds boolean  true: it is added to the selection, or removed if it is selected already
 function selection.click(view, thing, adds)
   if not adds then return selection.set(view, {thing}) end
   if not thing then return end
@@ -30,13 +30,13 @@ function selection.click(view, thing, adds)
   selection.set(view, list)
 end
 
---- What a click in the picture on a body means: the body; its robot if the body is selected already.
+--- The target of a click on a body in the picture: the body; its robot if the body is selected already.
 function selection.meant(view, body)
   if body.robot and view.session.selection[1] == body then return body.robot end
   return body
 end
 
---- The material of all that is selected; nil if nothing is, or if materials differ.
+--- The material common to the selection; nil if nothing is selected, or if materials differ.
 function selection.material(view)
   local material
   for _, thing in ipairs(view.session.selection) do

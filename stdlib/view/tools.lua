@@ -1,5 +1,5 @@
---- Tools of the picture: what a click and a drag on the picture do. "Camera" moves the camera, "Select" selects, "Translate" and "Rotate" drag what
---- is selected until it touches something, "Measure" measures distances and angles. The middle and right buttons and the wheel always move the camera.
+--- Tools of the picture: effects of clicks and drags on the picture. "Camera" moves the camera, "Select" selects, "Translate" and "Rotate" drag the
+--- selection until it touches something, "Measure" measures distances and angles. The middle and right buttons and the wheel always move the camera.
 local camera = require "clench.view.camera"
 local context = require "clench.view.context"
 local drags = require "clench.view.drags"
@@ -18,7 +18,7 @@ local tools = {}
 
 tools.names = {"Camera", "Select", "Translate", "Rotate", "Measure"}
 
---- What lies under a pixel: body, point and normal; nil where nothing is.
+--- The hit under a pixel: body, point and normal; nil if there is none.
 function tools.pick(view, x, y)
   local world = view.session.world
   if not world then return nil end
@@ -27,7 +27,7 @@ function tools.pick(view, x, y)
   return hit and replay.to_live(view, hit)
 end
 
--- what a drag of a body moves: its robot, or the robot that carries that robot's mount; the body itself otherwise
+-- the target of a drag of a body: its robot, or the robot that carries that robot's mount; otherwise the body itself
 local function movable(body) return body.robot or body end
 
 local function select_at(view, x, y, adds)
@@ -73,7 +73,7 @@ local function is_part(thing, robot) return thing ~= nil and clench.type(thing) 
 
 local function move_drag(view, press, mouse)
   local drag, ui = press.drag, view.ui
-  -- what is dragged is selected, unless a part of it is
+  -- the dragged body or robot is selected, unless a part of it is
   local selected = view.session.selection[1]
   if not press.moved and drag.is_free and selected ~= drag.target and not is_part(selected, drag.target) then
     view:run("world.select", {addresses = {view:address(drag.target)}})
@@ -82,7 +82,7 @@ local function move_drag(view, press, mouse)
   local move = drag.move or function(...) drags.move(view, drag, ...) end
   local ok, problem = pcall(move, mouse.x, mouse.y, ctrl_down(ui), shift_down(ui))
   if ok then return end
-  -- a motion is refused where it starts in collision
+  -- a motion that starts in collision is rejected
   if is_stopped(problem) then error(problem, 0) end
   view.status = error_text(problem)
 end
@@ -97,7 +97,7 @@ local function end_press(view, press, mouse)
   if press.kind == "select" or is_click then select_at(view, mouse.x, mouse.y, shift_down(view.ui)) end
 end
 
---- Applies the mouse of this frame to the picture.
+--- Applies the mouse input of this frame to the picture.
 function tools.update(view)
   local ui = view.ui
   local mouse = ui.mouse
@@ -149,7 +149,7 @@ local function draw_axes(view, ui)
   for _, thing in ipairs(view.session.selection) do frames.draw(view, ui, replay.shown(view, thing).pose) end
 end
 
---- Outlines what is selected, and draws its axes, the manipulator and the highlighted contact.
+--- Outlines the selection, and draws its axes, the manipulator and the highlighted contact.
 function tools.draw(view, ui)
   draw_highlight(view, ui)
   draw_handles(view, ui)

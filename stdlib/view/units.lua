@@ -1,10 +1,10 @@
---- Units in which panels show lengths and angles, by the user's choice. Scripts, files and the console stay in SI and radians.
+--- Units in which panels show lengths and angles, chosen by the user. Scripts, files and the console always use SI and radians.
 local units = {}
 
 local lengths = {m = 1, mm = 1000}
 local angles = {rad = 1, deg = 180 / math.pi}
 
---- Factor from SI to a unit that is shown, its name, and a format for numbers: of "m", "rad" and other units, which stay as they are.
+--- Factor from SI to the displayed unit, its name, and a format for numbers: for "m", "rad" and other units, which are not converted.
 ---@param unit string  of SI
 ---@return number factor, string name, string format
 function units.of(view, unit)

@@ -1,4 +1,4 @@
---- Folders of the user in which the viewer keeps files: settings, and work that was not saved.
+--- Folders of the user in which the viewer stores files: settings, and unsaved work.
 local user_files = {}
 
 local function quoted(word) return "'" .. word:gsub("'", "'\\''") .. "'" end
@@ -10,15 +10,15 @@ local function folder(variable, otherwise)
   return home and home ~= "" and ("%s/%s/clench"):format(home, otherwise) or nil
 end
 
---- Where settings are kept: $XDG_CONFIG_HOME/clench, else ~/.config/clench.
+--- Folder of settings: $XDG_CONFIG_HOME/clench, else ~/.config/clench.
 ---@return string? folder
 function user_files.settings() return folder("XDG_CONFIG_HOME", ".config") end
 
---- Where unsaved work is kept: $XDG_STATE_HOME/clench, else ~/.local/state/clench.
+--- Folder of unsaved work: $XDG_STATE_HOME/clench, else ~/.local/state/clench.
 ---@return string? folder
 function user_files.state() return folder("XDG_STATE_HOME", ".local/state") end
 
---- Writes a file, and makes its folder if there is none.
+--- Writes a file, and creates its folder if necessary.
 ---@param path string
 ---@param text string
 function user_files.save(path, text)
@@ -33,7 +33,7 @@ function user_files.read(path)
   return file and file:read "a"
 end
 
---- The path from the root, so that it can be opened from any folder.
+--- The absolute path, so that it can be opened from any folder.
 function user_files.absolute(path)
   local here = os.getenv "PWD"
   if path:sub(1, 1) == "/" or not here then return path end

@@ -22,12 +22,12 @@ local user_files = require "clench.view.user_files"
 
 local Viewer = class "view"
 
-local frame_time = 1 / 60  -- of synthetic frames [s]
-local max_lines = 2000  -- kept in the console
+local frame_time = 1 / 60  -- duration of synthetic frames [s]
+local max_lines = 2000  -- maximum number of lines in the console
 
 function Viewer:__tostring() return ("view of %s"):format(tostring(self.session.world or "no world")) end
 
---- Notes that the world or the panels have changed: the next frame is drawn anew.
+--- Records that the world or the panels have changed, so that the next frame is drawn anew.
 function Viewer:changed()
   self.stamp = self.stamp + 1
   self.needs_frame = true
@@ -68,7 +68,7 @@ function Viewer:address(thing)
   return escaped(thing.robot.name) .. "/" .. escaped(thing.name)
 end
 
---- Points the camera at the grasp, or where the user has set the home, or at everything.
+--- Points the camera at the grasp, or restores the user's home, or shows everything.
 ---@param all? boolean  true: at everything
 function Viewer:home(all)
   if not self.session.world then return end
@@ -122,7 +122,7 @@ local function draw_world(self, ui)
   ui:show(replay.world(self), options)
 end
 
--- a window follows the clock, by which double clicks are told from single ones
+-- a window follows the clock, which distinguishes double clicks from single ones
 local function time_since_last(self)
   if not self.timer then return frame_time end
   local before, now = self.drawn_at, clench.loop.time()
@@ -133,13 +133,14 @@ end
 --- Draws one frame.
 function Viewer:frame()
   if self.is_closed then raise "view:frame: the view was closed" end
-  -- a frame of a window, and of a script's coroutine, is drawn while the loop runs
+  -- frames of a window, and of a script's coroutine, are drawn while the loop runs
   if not self.in_loop and not loop_task.thread then clench.loop.run(0) end
   self.needs_frame = false
   self.frames = self.frames + 1
   local passed = time_since_last(self)
   replay.advance(self, passed)
   self.ui:frame(passed, function(ui)
+    layout.follow_scale(self)
     follow_world(self)
     if not splitters.update(self) then tools.update(self) end  -- before the world is drawn: the frame that takes input shows its effect
     follow_world(self)
@@ -193,13 +194,13 @@ function Viewer:project(point)
   return camera.project(self.camera, self.ui.size, check.point("view:project", "point", point))
 end
 
---- What lies under a pixel: body, point, normal, distance; nil where nothing is.
+--- The hit under a pixel: body, point, normal, distance; nil if there is none.
 function Viewer:pick(x, y)
   check.numbers("view:pick", "x y", x, y)
   return tools.pick(self, x, y)
 end
 
---- Handles of the current tool on the selection: `name`, the pixel `x`, `y` at which a drag takes hold of it, and `value` and `limits` of the DOF of a joint.
+--- Handles of the current tool on the selection: `name`, the pixel `x`, `y` at which it can be dragged, and `value` and `limits` of the DOF of a joint.
 ---@return table[] handles
 function Viewer:handles() return tools.handles(self) end
 
@@ -236,7 +237,7 @@ function Viewer:click(x, y) input.click(self, x, y) end
 function Viewer:click_label(label, kind) input.click_label(self, label, kind) end
 function Viewer:drag(x, y, to_x, to_y, options) input.drag(self, x, y, to_x, to_y, options) end
 
---- Keeps unsaved work at once, as it is when a program ends early.
+--- Stores unsaved work at once, as when a program ends early.
 function Viewer:flush()
   for _, kept in ipairs(self.kept) do
     if kept.flush then kept.flush() end

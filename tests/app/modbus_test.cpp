@@ -78,8 +78,8 @@ port:close()
       modbus_mapping_new_start_address(0, 0, 0, 0, requests, 123, 0, 0), &modbus_mapping_free);
   serve(line.get(), registers.get());
   const std::string output = driver.rest();
-  CHECK(has(output, "master: the device refuses: reading registers (exception 2)"));
-  CHECK(has(output, "master: the device refuses: writing registers (exception 2)"));
+  CHECK(has(output, "master: the device rejects the request: reading registers (exception 2)"));
+  CHECK(has(output, "master: the device rejects the request: writing registers (exception 2)"));
   for (int i = 0; i < 123; ++i) {
     const auto byte = [](int number) { return (37 * number + 11 * 123) & 0xFF; };
     CHECK(registers->tab_registers[i] == (byte(2 * i + 1) << 8 | byte(2 * i + 2)));

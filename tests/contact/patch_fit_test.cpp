@@ -103,7 +103,7 @@ TEST_CASE("the jet and the quadric agree with each other") {
       CHECK(std::abs(ours.directions.col(0).dot(theirs.directions.col(0))) > 0.999);
   }
   CHECK_THROWS_WITH_AS(fit_jet(std::vector<Vector3d>(14), 1),
-                       "contact patch: a jet needs 15 points at least, got 14", Error);
+                       "contact patch: a jet needs at least 15 points, got 14", Error);
 }
 
 TEST_CASE("directions without information stay flat, and too few points are rejected") {
@@ -113,7 +113,7 @@ TEST_CASE("directions without information stay flat, and too few points are reje
     row.push_back({i * scale / 8, 0, tilted_ball(0.02, 0, i * scale / 8, 0)});
   check_curvatures(fit_quadric(row, scale), 50, 0, 0.01);
   CHECK_THROWS_WITH_AS(fit_quadric(std::vector<Vector3d>(2), 1),
-                       "contact patch: a surface needs 3 points at least, got 2", Error);
+                       "contact patch: a surface needs at least 3 points, got 2", Error);
 }
 
 TEST_CASE("a ridge leaves a residual, and a ball does not") {

@@ -153,7 +153,7 @@ TEST_CASE("real meshes: collision equals a search of all pairs") {
 TEST_CASE("an invalid pose is rejected") {
   const auto a = Shape::make(box(1, 1, 1));
   CHECK_THROWS_WITH_AS(colliding(*a, *a, Pose{Eigen::Quaterniond(0, 0, 0, 0), {0, 0, 0}}),
-                       "geometry query: pose wants a unit quaternion, got (0, 0, 0, 0)", Error);
+                       "geometry query: pose: expected a unit quaternion, got (0, 0, 0, 0)", Error);
   CHECK_THROWS_WITH_AS(colliding(*a, *a, Pose::translation({0, std::nan(""), 1})),
                        "geometry query: position of the pose must be finite and within 1e+30 [m], "
                        "got (0, nan, 1)",

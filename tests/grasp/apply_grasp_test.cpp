@@ -79,7 +79,7 @@ TEST_CASE("a grasp that does not fit a world is rejected and moves nothing") {
   refuse(grasp, "it has 3 DOFs and 8 joints, the hand 4 and 8");
   grasp = c.grasp;
   grasp.X_OH.reset();
-  refuse(grasp, "put together by hand");
+  refuse(grasp, "it contains no pose of the hand");
   grasp = c.grasp;
   grasp.dofs[1] = 100;
   refuse(grasp, "must lie in");

@@ -121,8 +121,8 @@ TEST_CASE("values of following joints may be listed in addition to their leaders
   CHECK(h.apply(h.grasp({"a2", "b2"}, {0.2, 0.15}))[1] == 0.2);
   REQUIRE(h.said.size() == 1);
   CHECK(h.said[0] ==
-        "grasp of cube by twin: joint 'b2' moves with DOF 'a2', which puts it at 0.1, not at "
-        "0.15; the DOF counts");
+        "grasp of cube by twin: joint 'b2' moves with DOF 'a2', which puts it at 0.1, not at 0.15; "
+        "the DOF is used");
   CHECK_THROWS_WITH_AS(h.apply(h.grasp({"c"}, {0})), doctest::Contains("the hand has no DOF 'c'"),
                        Error);
 }
@@ -136,8 +136,8 @@ TEST_CASE("the value of a following joint includes the offset of its mimic") {
   h.apply(h.grasp({"a2", "b2"}, {0.2, 0.1}));
   REQUIRE(h.said.size() == 1);
   CHECK(h.said[0] ==
-        "grasp of cube by twin: joint 'b2' moves with DOF 'a2', which puts it at 0.2, not at "
-        "0.1; the DOF counts");
+        "grasp of cube by twin: joint 'b2' moves with DOF 'a2', which puts it at 0.2, not at 0.1; "
+        "the DOF is used");
   // of a1, b1, a2, b2
   CHECK(h.apply(h.grasp({}, {0.1, 0.3, 0.2, 0.2}), DofOrder::isaac) == Numbers{0.1, 0.2, 0.3});
   CHECK(h.said.empty());

@@ -147,9 +147,9 @@ TEST_CASE("invalid projections are rejected by name") {
   refuse(space, {.projected = {0, 1, 2, 3}},
          "wrench space: project: expected three free coordinates, got 2: ty, tz");
   refuse(space, {.fixed = {{0, 0}}, .projected = {0, 1}},
-         "wrench space: project: fx is named twice, or does not count in this space");
+         "wrench space: project: fx is named twice, or is no coordinate of this space");
   refuse(forces, {.projected = {5}},
-         "wrench space: project: tz is named twice, or does not count in this space");
+         "wrench space: project: tz is named twice, or is no coordinate of this space");
   refuse(space, {.projected = {7}}, "wrench space: project: coordinates must be 0 to 5, got 7");
   refuse(space, {.fixed = {{0, 2}, {1, 0}, {2, 0}}},
          "wrench space: project: no wrench of it has fx = 2, fy = 0, fz = 0");

@@ -693,7 +693,7 @@ TEST_CASE("only the selected coordinates are evaluated") {
   };
   refuse({0}, "wrench space: expected 2 to 6 coordinates, got 1");
   refuse({0, 6}, "wrench space: coordinates must be 0 to 5, got 6");
-  refuse({0, 1, 0}, "wrench space: coordinate 0 is there twice");
+  refuse({0, 1, 0}, "wrench space: coordinate 0 is given twice");
 }
 
 TEST_CASE("size, position, rotation, order and duplicated contacts change no measure") {

@@ -20,10 +20,10 @@ TEST_CASE("a malformed MJCF file is told by file, line, expected and got") { che
 TEST_CASE("an unexpanded xacro file is told to be expanded") {
   TemporaryFolder folder;
   const auto file = folder.write("hand.urdf.xacro", "<robot/>");
-  CHECK_THROWS_WITH_AS(read_robot(file),
-                       "hand.urdf.xacro: xacro is no robot yet; expand it first: xacro "
-                       "hand.urdf.xacro > robot.urdf",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      read_robot(file),
+      "hand.urdf.xacro: a xacro file must be expanded first: xacro hand.urdf.xacro > robot.urdf",
+      Error);
 }
 
 TEST_CASE("more links, joints or geoms than any robot has are refused") {

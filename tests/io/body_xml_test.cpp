@@ -165,6 +165,7 @@ TEST_CASE("what a body's file holds and is not used is warned of") {
       "body.xml:3: normalCompliance and shearCompliance are not used",
       "body.xml:6: inertia_matrix is not symmetric; its symmetric part is used",
       "body.xml:6: inertia_matrix is not positive definite; it is computed from the shape",
-      "body.xml:2: geometryFile: type 'ply' is not that of 'box.off'; its ending counts"};
+      "body.xml:2: geometryFile: type 'ply' does not fit 'box.off'; the ending of the file is "
+      "used"};
   CHECK(warnings.list == expected);
 }

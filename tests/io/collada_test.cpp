@@ -54,7 +54,7 @@ TEST_CASE("counts of a COLLADA file that are not what stands there are told") {
   };
   const auto unused = [](const char* name) {
     return std::vector<std::string>{std::string("q.dae: counts of <") + name +
-                                    "> that differ from what stands there are not used"};
+                                    "> that differ from its contents are not used"};
   };
   CHECK(told("count=\"24\"", "count=\"23\"") == unused("float_array"));
   CHECK(told("count=\"12\"", "count=\"7\"") == unused("triangles"));
@@ -108,9 +108,9 @@ TEST_CASE("nodes and skins are found by their names, and circles are refused") {
   skin = replaced(skin, "<instance_geometry url=\"#g\">", "<instance_controller url=\"#c\">");
   skin = replaced(skin, "</instance_geometry>", "</instance_controller>");
   CHECK(read_collada(skin, warnings.options()).mesh.bounds().center() == Eigen::Vector3d(0, 0, 9));
-  CHECK(warnings.list == std::vector<std::string>{
-                             "q.dae: skins and morphs are not used: their meshes keep the shape "
-                             "they were drawn in"});
+  CHECK(warnings.list ==
+        std::vector<std::string>{
+            "q.dae: skins and morphs are not used: their meshes keep their shape at rest"});
   const std::string circle = replaced(good, "<node>", "<node id=\"a\"><instance_node url=\"#a\"/>");
   CHECK_THROWS_WITH_AS(
       read_collada(circle),
@@ -158,7 +158,7 @@ TEST_CASE("what is wrong in a COLLADA file is told by line") {
   refused("offset=\"0\"", "offset=\"-1\"",
           "input: offset: expected a whole number from 0 to 64, got '-1'");
   refused("<p>0 0 ", "<p>8 0 ", "p: expected a vertex from 0 to 7, got 8");
-  refused("<p>0 0 ", "<p>0 0 0 ", "p: expected 2 numbers a corner, got 73 in all");
+  refused("<p>0 0 ", "<p>0 0 0 ", "p: expected 2 numbers per corner, got 73 in total");
   refused("<p>0 0 ", "<p>0 0 0 0 ", "triangles: expected 3 corners of a face, got 1");
   refused("1 0.5 0 1", "1 0.5", "color: expected three or four numbers, got 2");
   CHECK_THROWS_WITH_AS(

@@ -166,7 +166,7 @@ TEST_CASE("writing says what the text format has no place for, and refuses other
   CHECK(warnings.empty());
   write_eigengrasps(set, folder.path() / "a.egr", warn);
   CHECK(warnings == std::vector<std::string>{
-                        "a.egr: the text format has no place for limits of amplitudes; .xml has"});
+                        "a.egr: the text format cannot store limits of amplitudes; .xml can"});
   CHECK_THROWS_WITH_AS(write_eigengrasps(set, folder.path() / "a.doc"),
                        "a.doc: expected a file of eigengrasps, .egr or .xml, got '.doc'", Error);
   CHECK_THROWS_WITH_AS(write_eigengrasps({}, folder.path() / "a.egr"),

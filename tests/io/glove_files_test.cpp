@@ -17,8 +17,7 @@ TEST_CASE("a calibration gives slopes a row per DOF, and intercepts") {
   REQUIRE(glove.slopes.cols() == 3);
   CHECK(glove.slopes(1, 0) == 4);
   CHECK(glove.intercepts == Eigen::Vector2d(-1, -2));
-  CHECK(warnings.list ==
-        std::vector<std::string>{"g.txt:5: what follows from 'rest' on is not used"});
+  CHECK(warnings.list == std::vector<std::string>{"g.txt:5: text from 'rest' on is not used"});
 }
 
 TEST_CASE("the calibrations of the original load, for each of its human hands") {

@@ -140,7 +140,7 @@ TEST_CASE("what a glTF file holds and is not used is told") {
             "q.gltf: its animations are not used", "q.gltf: its morph targets are not used",
             "q.gltf: its points and lines are not used as geometry",
             "q.gltf: its primitives without positions are not used",
-            "q.gltf: its skins are not used: skinned meshes keep the shape they were drawn in"});
+            "q.gltf: its skins are not used: skinned meshes keep their shape at rest"});
 }
 
 TEST_CASE("a small glTF file that places a mesh many times is refused") {

@@ -309,7 +309,7 @@ TEST_CASE("data that would not read back is named") {
                          doctest::Contains(message), Error);
   };
   refuse([](GraspSpec& g) { g.labels["x"] = "\xFF"; }, "a.jsonl", "",
-         "a.jsonl: grasps[2]: the label 'x' would not read back as it is, so nothing is saved");
+         "a.jsonl: grasps[2]: the label 'x' would change when read back, so nothing is saved");
   refuse([](GraspSpec& g) { g.dofs[0] = NAN; }, "a.jsonl", "",
          "a.jsonl: the list would not read back, so nothing is saved: a.jsonl:3: dofs: expected a "
          "list of numbers, got null");

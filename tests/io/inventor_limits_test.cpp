@@ -210,11 +210,11 @@ TEST_CASE("PROTOs are read again for each instance, with an end") {
                 "PROTO P [ field SFNode x NULL ] { Group { children [ Group { children IS x } "
                 "Group { children IS x } ] } }\n" +
                 nested + "NULL" + repeated(40, " }")) ==
-        "a.iv:2: expected PROTOs that stand for at most 20000000 bytes of text");
+        "a.iv:2: expected PROTOs that expand to at most 20000000 bytes of text");
   // long bodies
   CHECK(refusal(wrl + "PROTO P [ ] {\n#" + std::string(1 << 20, '-') + "\n}\n" +
                 repeated(60, "P { }\n")) ==
-        "a.iv:24: expected PROTOs that stand for at most 20000000 bytes of text");
+        "a.iv:24: expected PROTOs that expand to at most 20000000 bytes of text");
   CHECK(refusal(wrl + "PROTO P [ ] { PROTO Q [ ] { Group { } } }\nP { }") ==
         "a.iv:2: a PROTO inside a PROTO is not read");
 }

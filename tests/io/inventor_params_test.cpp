@@ -50,9 +50,9 @@ TEST_CASE("an indented line is a comment, and a key in it is told") {
       body_with(" #mass 20\n\t#of 3 parts\n#mass 30\n  #cog 1 2 3\r\n", warnings.options());
   CHECK(b.mass == doctest::Approx(0.03));
   CHECK_FALSE(b.com);
-  CHECK(warnings.list ==
-        std::vector<std::string>{"box.iv:2: #mass is a comment, for it does not begin its line",
-                                 "box.iv:5: #cog is a comment, for it does not begin its line"});
+  CHECK(warnings.list == std::vector<std::string>{
+                             "box.iv:2: #mass is a comment, because it does not begin its line",
+                             "box.iv:5: #cog is a comment, because it does not begin its line"});
 }
 
 TEST_CASE("the last of a key counts") {
@@ -85,9 +85,9 @@ TEST_CASE(
   Warnings warnings;
   const BodySpec b = body_with("#inertia_matrix\n#1 0 0\n#0 1 0\n#0 0 3", warnings.options());
   CHECK((*b.inertia_per_mass)(2, 2) == doctest::Approx(3e-6));
-  CHECK(warnings.list == std::vector<std::string>{
-                             "box.iv:2: inertia that no body has, as one moment exceeds the sum "
-                             "of the others; these are raised to it"});
+  CHECK(warnings.list ==
+        std::vector<std::string>{"box.iv:2: impossible inertia, as one moment exceeds the sum of "
+                                 "the others; these are increased to equal it"});
   CHECK((*b.inertia_per_mass)(0, 0) == doctest::Approx(1.5e-6));
 }
 

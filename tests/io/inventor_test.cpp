@@ -462,7 +462,7 @@ TEST_CASE("Units are told, for they scale what nobody may expect to be scaled") 
   // 0.0254 is a 32-bit number there
   CHECK(body.shape->bounds().size().x() == doctest::Approx(0.0254).epsilon(1e-6));
   REQUIRE(notes.size() == 1);
-  CHECK(notes[0].starts_with("inch.iv: Units INCHES scales what follows it"));
+  CHECK(notes[0].starts_with("inch.iv: Units INCHES scales the nodes after it"));
 }
 
 TEST_CASE("a file without a surface is a frame, which is told") {

@@ -223,11 +223,11 @@ TEST_CASE("the unit is the option's, else the file's, else the caller's, else gu
   CHECK(size(mug) == 0.15);
   REQUIRE(notes.size() == 2);
   CHECK(notes[0] ==
-        "a.obj: it names no unit; its size, 10 x 1 x 1, is taken for m (the option "
-        "unit says otherwise)");
+        "a.obj: it names no unit; its size, 10 x 1 x 1, is taken for m (the option unit overrides "
+        "this)");
   CHECK(notes[1] ==
-        "mug.stl: it names no unit; its size, 150 x 80 x 80, is taken for mm (the "
-        "option unit says otherwise)");
+        "mug.stl: it names no unit; its size, 150 x 80 x 80, is taken for mm (the option unit "
+        "overrides this)");
   notes.clear();
   options.silent_mesh_unit = 1;
   CHECK(size(mug) == 150);
@@ -287,7 +287,7 @@ TEST_CASE("a body keeps the report, which describes itself") {
             "ascii STL: 12 triangles of 36 vertices", "unit mm, inferred from the size",
             "28 vertices welded", "watertight, 0.2 x 0.1 x 0.1 m, no faults",
             "volume 0.002 m^3, center of mass (0, 0, 0) m",
-            "inertia of each kg: xx 0.001667, yy 0.004167, zz 0.004167, xy 0, xz 0, yz 0 m^2"});
+            "inertia per kg: xx 0.001667, yy 0.004167, zz 0.004167, xy 0, xz 0, yz 0 m^2"});
 }
 
 TEST_CASE("scanned objects load with every triangle that their files hold") {

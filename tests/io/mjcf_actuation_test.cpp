@@ -119,7 +119,7 @@ TEST_CASE("dynamics between control and force are not simulated, with a warning"
             .warned("<position>: its control acts at once: the time constant of its filter is not "
                     "used"));
   CHECK(three("<actuator><muscle joint='a'/></actuator>")
-            .warned("<muscle>: how its force follows from its control is not kept"));
+            .warned("<muscle>: the law of its force is not kept"));
   CHECK(three("<actuator><motor name='jet' site='s'/><motor name='foil' site='s'/></actuator>")
             .warned("actuators whose target is a site are not used: 'jet', 'foil'"));
   CHECK(three("<actuator><position joint='a' kv='1' dampratio='1'/></actuator>")
@@ -154,8 +154,8 @@ TEST_CASE("two tendons of one ratio couple their joints, with a warning") {
   CHECK(told.robot.dofs.size() == 2);
   CHECK(told.joint("b").ratio == 2);
   CHECK(
-      told.warned("joints 'a' and 'b' share a tendon, 't', and lose a DOF; they are taken to "
-                  "turn as 1 to 2; the range of 'a' narrows from [-1, 1] to [-0.5, 0.5]"));
+      told.warned("joints 'a' and 'b' share a tendon, 't', and become one DOF; their ratio is "
+                  "assumed to be 1 to 2; the range of 'a' narrows from [-1, 1] to [-0.5, 0.5]"));
 }
 
 TEST_CASE("a tendon that pulls the other way has the same ratio") {
@@ -247,7 +247,8 @@ TEST_CASE("resistance to free motion and compensation of gravity are a body's") 
 <joint type='free' stiffness='1' springdamper='1 1'/><geom name='belt' size='0.1' surfacevel='1 0 0'/></body></worldbody></mujoco>)"),
              options);
   const std::string free = "m.xml:2: free joint of 'a': ";
-  CHECK(ToldRobot::has(warnings, free + "a spring holds no free body here; stiffness is not used"));
+  CHECK(ToldRobot::has(warnings,
+                       free + "springs of free bodies are not supported; stiffness is not used"));
   CHECK(ToldRobot::has(warnings, free + "springdamper is not used"));
   CHECK(ToldRobot::has(warnings, "m.xml:2: geom 'belt': surfacevel is not used"));
 }

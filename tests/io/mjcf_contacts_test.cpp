@@ -60,7 +60,7 @@ TEST_CASE("geoms without bits collide with nothing") {
   const ToldRobot told = linked_bodies("", "contype='0' conaffinity='0'");
   CHECK_FALSE(told.body("a").shape);
   CHECK(told.body("a").appearance.visual);
-  CHECK(told.noted("m.xml: nothing collides, as contype and conaffinity say"));
+  CHECK(told.noted("m.xml: nothing collides because of contype and conaffinity"));
 }
 
 TEST_CASE("pairs collide though nothing else lets them") {
@@ -100,10 +100,10 @@ TEST_CASE("switches of the simulation are followed or warned of by name") {
   CHECK(off.world.gravity->isZero());
   CHECK_FALSE(off.world.collision_on);
   CHECK(off.told.list.empty());
-  CHECK(off.noted("contacts are off"));
+  CHECK(off.noted("the file disables contacts"));
   const ContactWorld idle = flags("contact='enable' warmstart='disable' energy='enable'");
   CHECK(idle.told.list.empty());
-  CHECK(idle.noted("m.xml:1: flag: of MuJoCo's solver alone, and not used: warmstart, energy"));
+  CHECK(idle.noted("m.xml:1: flag: settings of MuJoCo's solver are not used: warmstart, energy"));
   CHECK(flags("contact='enable'").world.collision_on);
   const ContactWorld lost = flags("gravity='disable' limit='disable' override='enable'");
   CHECK(lost.warned("m.xml:1: flag: not used: limit=\"disable\", override=\"enable\""));

@@ -109,7 +109,7 @@ TEST_CASE("dampers hold nothing, and an integrator reaches what its control and 
   const ToldRobot opens = actuated(servo + "actrange='-0.1 0'/>");
   CHECK(at_rest(opens.robot) == EffortRange{-10, 0});
   CHECK(opens.dof("a").kp == 100);
-  CHECK(opens.warned("<intvelocity>: targets of its motor stand for its activation"));
+  CHECK(opens.warned("<intvelocity>: targets of its motor represent its activation"));
   CHECK(at_rest(actuated(servo + "actrange='-1 1' ctrlrange='-1 0'/>").robot) ==
         EffortRange{-100, 0});
   CHECK(at_rest(actuated(servo + "ctrlrange='-1 1'/>").robot) == EffortRange{-none, none});
@@ -145,8 +145,8 @@ TEST_CASE("actuators that an option switches off drive nothing, which is reporte
   // other settings of an option are not used for a robot alone
   const ToldRobot more = two(
       motors, "", "<option timestep='0.01'><flag actuation='disable' gravity='disable'/></option>");
-  CHECK(more.warned("of <option>, here and further on, not used: timestep"));
-  CHECK(more.warned("of <flag>, here and further on, not used: gravity"));
+  CHECK(more.warned("attributes of <option> that are not used, here and further on: timestep"));
+  CHECK(more.warned("attributes of <flag> that are not used, here and further on: gravity"));
   CHECK(two(motors, "", "<option timestep='0.01'/>").warned("<option> is not used"));
   CHECK(two(motors, "", "<option><flag actuation='enable'/></option>").warnings.empty());
   CHECK_THROWS_WITH(two(motors, "", "<option actuatorgroupdisable='1 x'/>"),

@@ -48,8 +48,8 @@ TEST_CASE("a link whose geoms differ in friction has the prevailing one, with a 
       touching_links(sphere_xml(""), sphere_xml("friction='0.2'") + sphere_xml("friction='2'"));
   CHECK(told.body("a").material == "friction 2");
   CHECK(
-      told.warned("m.xml: bodies whose geoms differ in friction, of which that of the highest "
-                  "priority, then the largest counts for all: "));
+      told.warned("m.xml: bodies whose geoms differ in friction; the one of the highest "
+                  "priority, then the largest, is used for all: "));
   // the default friction of MuJoCo is 1
   const ToldRobot part =
       touching_links(sphere_xml(""), sphere_xml("") + sphere_xml("friction='0.2'"));

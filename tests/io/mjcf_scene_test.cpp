@@ -117,8 +117,8 @@ TEST_CASE("a plane is a large plate below it") {
   CHECK(floor.X_WB.position.z() == 1);
   CHECK(floor.body.shape->bounds().high.isApprox(Eigen::Vector3d(5, 7, 0)));
   CHECK(floor.body.shape->bounds().low.z() == doctest::Approx(-0.1));
-  CHECK(told.noted(
-      "scene.xml:1: geom: a plane has no end; a plate of 10 x 14 x 0.1 m stands for it"));
+  CHECK(
+      told.noted("scene.xml:1: geom: a plane is infinite; a plate of 10 x 14 x 0.1 m replaces it"));
 }
 
 TEST_CASE("friction becomes materials that combine as MuJoCo has it") {
@@ -142,8 +142,8 @@ TEST_CASE("friction becomes materials that combine as MuJoCo has it") {
       "</body>");
   CHECK(mixed.world.bodies[0].body.material == "friction 2");
   CHECK(
-      mixed.warned("scene.xml: bodies whose geoms differ in friction, of which that of the "
-                   "highest priority, then the largest counts for all: 'x'"));
+      mixed.warned("scene.xml: bodies whose geoms differ in friction; the one of the highest "
+                   "priority, then the largest, is used for all: 'x'"));
   CHECK(failure("<geom size='1' friction='2e6'/>") ==
         "scene.xml:1: geom: friction: expected a number from 0 to 1e+06, got 2000000");
 }
@@ -190,7 +190,9 @@ TEST_CASE("damping, friction and armature of joints and actuators are kept") {
   CHECK(robot.actuators[4].gain_slopes[1] < 0);
   // one warning per kind
   CHECK(std::ranges::count_if(told.warnings, [](const std::string& s) {
-          return s.find("<damper>: motors of a run do not follow its gain") != std::string::npos;
+          return s.find(
+                     "<damper>: its gain, which depends on length or velocity, affects efforts") !=
+                 std::string::npos;
         }) == 1);
 }
 
@@ -204,13 +206,13 @@ TEST_CASE("couplings and actuators belong to the robot whose joints they name") 
   CHECK(told.world.robots[1].robot.dofs.size() == 1);
   CHECK(told.world.robots[0].robot.actuators.empty());
   CHECK(told.world.robots[1].robot.actuators.size() == 1);
-  CHECK(told.warned("joint: joint 'a' is of another robot; this is not used"));
+  CHECK(told.warned("joint: joint 'a' belongs to another robot; this is not used"));
   CHECK(told.noted("joints that no actuator drives do not close: 'a'"));
   const ToldWorld shared(arm + finger,
                          "<tendon><fixed name='t'><joint joint='a' coef='1'/><joint joint='p' "
                          "coef='1'/></fixed></tendon><actuator><motor tendon='t'/></actuator>");
   CHECK(shared.warned(
-      "motor: drives a tendon that joins two robots; of each it moves its own joints"));
+      "motor: drives a tendon of two robots; in each robot it moves the joints of that robot"));
 }
 
 TEST_CASE("keyframes become named states") {
@@ -231,7 +233,7 @@ TEST_CASE("keyframes become named states") {
   CHECK(told.world.keyframes[1].name == "2");
   CHECK(told.world.keyframes[1].robots[1].dofs == std::vector{2.0});
   CHECK(told.warned("key: qpos: joint 'hinge' is at 7, outside [0, 2]; moved to the limit"));
-  CHECK(told.warned("of <key>, here and further on, not used: ctrl"));
+  CHECK(told.warned("attributes of <key> that are not used, here and further on: ctrl"));
 }
 
 TEST_CASE("in keyframes balls are three turns and followers follow") {
@@ -326,7 +328,7 @@ TEST_CASE("an equality of one joint holds it where it says") {
   CHECK(robot.links[0].joints[0].min == 0.3);
   CHECK(robot.links[0].joints[0].max == 0.3);
   CHECK(robot.dofs[0].default_value == 0.3);
-  CHECK(told.noted("scene.xml:1: joint 'a' may only stand at 0.3 rad, as the equality says"));
+  CHECK(told.noted("scene.xml:1: joint 'a' is fixed at 0.3 rad because of the equality"));
   CHECK(!told.warned("ctrlrange"));
   // relative to the initial configuration of the model
   const ToldWorld from(
@@ -334,7 +336,7 @@ TEST_CASE("an equality of one joint holds it where it says") {
       "<geom size='1'/></body></body>",
       held);
   CHECK(from.world.robots[0].robot.dofs[0].default_value == 2.3);
-  CHECK(from.noted("joint 'a' may only stand at 2.3 m, as the equality says"));
+  CHECK(from.noted("joint 'a' is fixed at 2.3 m because of the equality"));
 }
 
 TEST_CASE("of negative gains the magnitude is used, with a warning") {
@@ -384,8 +386,8 @@ TEST_CASE("a scene's bits are kept, and excluded pairs are listed") {
   }
   CHECK(fixed == 2);
   CHECK(other == 1);
-  CHECK(told.noted("4 pairs of bodies never collide, as contype and conaffinity say"));
-  CHECK(told.warned("exclude: no body 'no' is read; this is not used"));
+  CHECK(told.noted("4 pairs of bodies never collide because of contype and conaffinity"));
+  CHECK(told.warned("exclude: no body 'no' was read; the exclusion is ignored"));
   CHECK(told.warned("pairs of which a geom is not read are not used: 'x' and 'y'"));
 }
 
@@ -394,7 +396,7 @@ TEST_CASE("what a scene holds and a world does not is told, one warning a kind o
                        "<option wind='1 0 0'/><sensor/><visual/>");
   CHECK(told.warned("<light> is not used, nor is another one"));
   CHECK(told.warned("<sensor> is not used"));
-  CHECK(told.warned("of <option>, here and further on, not used: wind"));
+  CHECK(told.warned("attributes of <option> that are not used, here and further on: wind"));
   CHECK(told.warned("geom: no obstacle is made of a hfield here; it is not used"));
   CHECK(ToldWorld("<body name='b'><geom type='plane' size='1 1 1'/><geom size='1'/></body>")
             .warned("geom: a plane is no part of a body here; it is not used"));
@@ -449,15 +451,15 @@ TEST_CASE("settings of MuJoCo's solver are reported unless they are those that a
   const std::string stiff = "margin='0.0002' solref='0.008 1' solimp='0.95 0.99 0.0001'";
   const auto ours = told("0.002", stiff, "cone='elliptic' impratio='10' integrator='implicit'");
   CHECK(ours.warnings.size() == 1);
-  CHECK(ours.warned("of <size>, here and further on, not used: nuserdata"));
+  CHECK(ours.warned("attributes of <size> that are not used, here and further on: nuserdata"));
   CHECK(ours.world.contact_threshold == 0.0002);
   // stiffness for another time step
   const auto other = told("0.001", stiff, "cone='pyramidal' impratio='1' integrator='RK4'");
-  CHECK(other.warned("not used: margin, solimp, solref"));
-  CHECK(other.warned("not used: cone, impratio, integrator"));
+  CHECK(other.warned("solver are not used: margin, solimp, solref"));
+  CHECK(other.warned("solver are not used: cone, impratio, integrator"));
   CHECK(!other.world.contact_threshold);
   CHECK(told("0.002", "margin='1' solref='0.008 1' solimp='0.95 0.99 0.0001'", "")
-            .warned("not used: margin, solimp, solref"));
+            .warned("solver are not used: margin, solimp, solref"));
 }
 
 TEST_CASE("a scene's time step is the world's") {
@@ -513,11 +515,10 @@ TEST_CASE("one robot of a scene is read by its body") {
   const RobotSpec robot = read_robot(path, {.root = {}, .body = "door"});
   CHECK(robot.name == "door");
   CHECK(robot.dofs.size() == 1);
-  CHECK_THROWS_WITH_AS(
-      read_robot(path, {.root = {}, .body = "mug"}),
-      "scene.xml: body: expected one that a tree of joints begins with, got 'mug', "
-      "expected one of arm, door",
-      Error);
+  CHECK_THROWS_WITH_AS(read_robot(path, {.root = {}, .body = "mug"}),
+                       "scene.xml: body: expected the root of a tree of joints, got 'mug', "
+                       "expected one of arm, door",
+                       Error);
   CHECK_THROWS_WITH_AS(read_robot("tests/data/two_finger/claw.cfg", {.root = {}, .body = "x"}),
                        "claw.cfg: body: expected a scene of MJCF, got another file", Error);
 }

@@ -43,7 +43,7 @@ TEST_CASE("a model of many elements is read whole") {
   CHECK(hand.joint("thumb_flex").max == 1.2);
   // the mesh is in millimeters by the scale of its class
   CHECK(hand.body("thumb").shape->solid().volume == doctest::Approx(0.008 * 0.02 * 0.06));
-  CHECK(hand.noted("body 'palm' is the base; its place in the file is not used"));
+  CHECK(hand.noted("body 'palm' is the base; its pose in the file is not used"));
   CHECK(
       hand.warned("hand.mjcf:12: a geom of the world itself, on no body, is no part of the robot"));
   CHECK(hand.warned("<sensor> is not used"));
@@ -82,8 +82,8 @@ TEST_CASE("a motor on a tendon moves its joints together, in proportion") {
   CHECK(hand.joint("index_pip").dof == hand.joint("index_mcp").dof);
   CHECK(hand.joint("index_pip").ratio == 0.5);
   CHECK(
-      hand.warned("joints 'index_mcp' and 'index_pip' share a tendon, 'index_tendon', and lose a "
-                  "DOF; they are taken to turn as 1 to 0.5"));
+      hand.warned("joints 'index_mcp' and 'index_pip' share a tendon, 'index_tendon', and become "
+                  "one DOF; their ratio is assumed to be 1 to 0.5"));
 }
 
 TEST_CASE("a tendon of two joints that an equality holds ties them") {
@@ -124,7 +124,7 @@ TEST_CASE("excluded pairs never collide, nor do pairs whose bits differ") {
 <body name="c"><geom size="1"/></body></body></worldbody></mujoco>)"));
   // a and b share no bit, and both share one with c
   CHECK(bits.robot.collision_rules.pairs_off.size() == 1);
-  CHECK(bits.noted("1 pair of links never collides, as contype and conaffinity say"));
+  CHECK(bits.noted("1 pair of links never collides because of contype and conaffinity"));
 }
 
 TEST_CASE("angles are degrees unless the compiler says radian") {
@@ -203,7 +203,7 @@ TEST_CASE("the body with the most joints is the robot, things that move freely b
 <body name="hand"><body name="finger"><joint name="j" range="0 1"/></body></body>
 </worldbody></mujoco>)"));
   CHECK(told.robot.base.name == "m_hand");
-  CHECK(told.warned("m.xml:2: body 'ball' moves freely beside the robot; it is not read"));
+  CHECK(told.warned("m.xml:2: body 'ball' moves separately from the robot; it is not read"));
   // several bodies, or one with joints, are attached to the world's frame
   const ToldRobot two(folder.write("m.xml", R"(<mujoco model="m"><worldbody>
 <body name="left" pos="1 0 0"><joint name="j" type="slide" range="0 1"/></body><body name="right"/>
@@ -239,9 +239,8 @@ TEST_CASE("a motor or tendon of a joint that the robot lacks is told, and the ro
   const ToldRobot ball = model("<joint name='j' type='ball' range='0 30'/>",
                                "<actuator><motor joint='j'/></actuator>");
   CHECK(ball.dofs() == std::vector<std::string>{"j_x", "j_y", "j_z"});
-  CHECK(
-      ball.warned("m.xml:1: motor: joint 'j' is a ball, which became three turns; this is not "
-                  "used"));
+  CHECK(ball.warned(
+      "m.xml:1: motor: joint 'j' is a ball, which became three hinges; this is not used"));
   for (const DofSpec& turn : ball.robot.dofs) CHECK_FALSE(turn.driven);
   TemporaryFolder folder;
   const auto read = [&](const std::string& beside, const std::string& rest) {
@@ -254,10 +253,11 @@ TEST_CASE("a motor or tendon of a joint that the robot lacks is told, and the ro
                                   rest + "</mujoco>"));
   };
   CHECK(read("<freejoint name='root'/>", "<actuator><motor joint='root'/></actuator>")
-            .warned("motor: joint 'root' is free, and no joint of the robot; this is not used"));
+            .warned(
+                "motor: joint 'root' is free, and does not belong to the robot; this is not used"));
   const ToldRobot beside = read("", "<equality><joint joint1='hinge'/></equality>");
   CHECK(beside.dofs().size() == 2);
-  CHECK(beside.warned("joint: joint 'hinge' is of a body that is not read; this is not used"));
+  CHECK(beside.warned("joint: joint 'hinge' belongs to a body that is not read; this is not used"));
   CHECK(read("", "<equality><joint joint1='p' joint2='hinge'/></equality>").dofs().size() == 2);
   // a tendon that has lost a joint couples no others
   const ToldRobot tendon =
@@ -266,7 +266,7 @@ TEST_CASE("a motor or tendon of a joint that the robot lacks is told, and the ro
            "coef='1'/><joint joint='hinge' coef='1'/></fixed></tendon>"
            "<equality><tendon tendon1='t'/></equality>");
   CHECK(tendon.dofs().size() == 2);
-  CHECK(tendon.warned("joint: joint 'hinge' is of a body that is not read"));
+  CHECK(tendon.warned("joint: joint 'hinge' belongs to a body that is not read"));
   CHECK(read("<composite/>", "<actuator><motor joint='zj'/></actuator>")
             .warned("motor: joint 'zj' may be of a <composite> or <flexcomp>, which are not read"));
 }
@@ -282,14 +282,14 @@ TEST_CASE("a range of two zeros means none, as it undoes that of a class") {
         1);
   const ToldRobot locked = model("<joint name='j' range='0 0' limited='true'/>");
   CHECK(locked.joint("j").max == 0);
-  CHECK(locked.noted("m.xml:1: joint 'j' may only stand at 0 rad"));
+  CHECK(locked.noted("m.xml:1: joint 'j' is fixed at 0 rad"));
   const std::string servo = "<actuator><position joint='j' ctrlrange='0 0'";
   CHECK(model("<joint name='j' range='-10 90'/>", servo + "/></actuator>").joint("j").max ==
         doctest::Approx(pi / 2));
   const ToldRobot held =
       model("<joint name='j' range='-10 90'/>", servo + " ctrllimited='true'/></actuator>");
   CHECK(held.joint("j").max == 0);
-  CHECK(held.noted("joint 'j' may only stand at 0, as ctrlrange says"));
+  CHECK(held.noted("joint 'j' is fixed at 0 because of ctrlrange"));
 }
 
 TEST_CASE("an outermost class by another name is the global one, which is told") {
@@ -309,9 +309,7 @@ TEST_CASE("a joint that is tied by nothing stands still, and is suspicious") {
   const ToldRobot told(
       model("<joint name='p' range='-9 9'/><joint name='q' range='-9 9'/>",
             radian + "<equality><joint joint1='q' joint2='p' polycoef='0 0 0 0 0'/></equality>"));
-  CHECK(
-      told.warned("m.xml:1: joint 'q': polycoef has no linear part: it stands still when 'p' "
-                  "moves"));
+  CHECK(told.warned("m.xml:1: joint 'q': polycoef has no linear part: it does not move with 'p'"));
 }
 
 TEST_CASE("of a robot alone keyframes are not used, and what uses them is named") {

@@ -72,7 +72,7 @@ TEST_CASE("the colors of an OBJ come from its material file and it loads without
   options.mesh_scale = 1;
   CHECK_FALSE(read_body(file, options).appearance.given);
   REQUIRE(notes.size() == 1);
-  CHECK(notes[0] == "cube.obj:1: no such file: my cube.mtl; the body has no colors of its own");
+  CHECK(notes[0] == "cube.obj:1: no such file: my cube.mtl; the body has one color");
   folder.write("my cube.mtl", "newmtl red\nKd 1 0 0\nd 0.5\nKs 1 1 1\n");
   const Appearance look = read_body(file).appearance;
   CHECK(look.given);
@@ -146,6 +146,6 @@ TEST_CASE("what an OBJ holds and is not used is told by line, each kind once") {
   CHECK(warnings.list ==
         std::vector<std::string>{"q.obj:9: lines and points are not used as geometry",
                                  "q.obj:11: free-form curves and surfaces are not used",
-                                 "q.obj:13: 'frob' is not known, and its line not used",
+                                 "q.obj:13: 'frob' is unknown, and its line is not used",
                                  "q.obj:15: a face of fewer than three points is not used"});
 }

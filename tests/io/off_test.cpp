@@ -76,10 +76,11 @@ TEST_CASE("what an OFF file holds and is not used is told by line, each kind onc
   Warnings warnings;
   read_off_text("OFF 4 2 0 9\n0 0 0 7\n1 0 0\n0 1 0 7\n0 0 1\n3 0 1 2 5\n2 0 1\nmore\n",
                 warnings.options());
-  CHECK(warnings.list == std::vector<std::string>{
-                             "q.off:1: what follows the counts is not used",
-                             "q.off:2: what follows a vertex's numbers is not used",
-                             "q.off:6: what follows a face's vertices is no color, and not used",
-                             "q.off:7: a face of fewer than three vertices is not used",
-                             "q.off:8: what follows the last face is not used"});
+  CHECK(warnings.list ==
+        std::vector<std::string>{
+            "q.off:1: text after the counts is not used",
+            "q.off:2: text after the numbers of a vertex is not used",
+            "q.off:6: text after the vertices of a face is no color, and is not used",
+            "q.off:7: a face of fewer than three vertices is not used",
+            "q.off:8: text after the last face is not used"});
 }

@@ -111,7 +111,7 @@ TEST_CASE("what is wrong in the lines of a PLY file is told by line") {
                 warnings.options());
   CHECK(warnings.list ==
         std::vector<std::string>{"q.ply: its elements 'edge' are not used",
-                                 "q.ply:16: what follows the values of a face is not used"});
+                                 "q.ply:16: text after the values of a face is not used"});
 }
 
 TEST_CASE("what is wrong in the bytes of a PLY file is told by element") {

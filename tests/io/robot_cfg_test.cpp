@@ -255,8 +255,8 @@ TEST_CASE(
   const RobotSpec r = cfg.read(options);
   REQUIRE(notes.size() == 4);
   CHECK(notes[2] ==
-        "hand.cfg: no inertia is given; that of a solid of one density is assumed: "
-        "'hand_base', 'hand_chain0_link0'");
+        "hand.cfg: no inertia is given; that of a uniform solid is assumed: 'hand_base', "
+        "'hand_chain0_link0'");
   CHECK(notes[3] ==
         "hand.cfg: no approach direction is given; it is the z axis of its base, from its origin");
   CHECK(notes[0] == "hand.cfg:19: FlockOfBirds: no bird number, 0 is used");

@@ -242,7 +242,7 @@ TEST_CASE("types and elements that are unknown are warned of, a type that is mis
   CHECK(read_xml_robot(dof() + chain(joint("d0") + link_of("Revolute")), options, "").class_name ==
         "Hand");
   REQUIRE(notes.size() == 5);
-  CHECK(notes[0] == "hand.xml:1: robot: no type; it is taken for a Hand");
+  CHECK(notes[0] == "hand.xml:1: robot: no type; Hand is assumed");
   CHECK(notes[2] == "hand.xml: no material is given; wood is assumed: 'hand_base'");
   CHECK(
       notes[1] ==

@@ -49,8 +49,8 @@ TEST_CASE("what is wrong in an ascii STL file is told by line") {
   const auto refused = [&](const std::string& text, const std::string& sentence) {
     CHECK_THROWS_WITH_AS(read_stl_text(text), ("q.stl:" + sentence).c_str(), Error);
   };
-  refused(start + "endloop", "6: expected three vertices a facet, got 2");
-  refused(start + "vertex 1 1 0\nvertex 2 2 2", "7: expected three vertices a facet, got more");
+  refused(start + "endloop", "6: expected three vertices per facet, got 2");
+  refused(start + "vertex 1 1 0\nvertex 2 2 2", "7: expected three vertices per facet, got more");
   refused(start + "vertex 1 x 0", "6: expected three numbers after vertex, got 'x'");
   refused(start + "vertex 1 nan 0", "6: expected three numbers after vertex, got 'nan'");
   refused(start + "vertx 1 1 0", "6: expected 'vertex' or 'endloop', got 'vertx'");

@@ -51,9 +51,8 @@ TEST_CASE(
   LineReader lines("x.cfg", "T (0.707107 0.707107 0 0)[0 0 0]\nT (2 0 0 0)[0 0 0]");
   CHECK(same(read_transform_list(lines, test::Listening{.warn = warn}),
              Pose::turn(right, Eigen::Vector3d::UnitX())));
-  CHECK(warnings ==
-        std::vector<std::string>{
-            "x.cfg:2: the quaternion (2 0 0 0) is not of length 1; it is scaled to it"});
+  CHECK(warnings == std::vector<std::string>{
+                        "x.cfg:2: the quaternion (2 0 0 0) is not of length 1; it is normalized"});
 }
 
 TEST_CASE("a unit quaternion with all its digits is kept to the bit") {

@@ -39,7 +39,7 @@ TEST_CASE("what <clench> says counts, and nothing is guessed beside it") {
   CHECK(told.robot.X_BA->position.y() == 2);
   CHECK(told.robot.collision_rules.parts_off == std::vector{0});
   CHECK(!told.noted("these DOFs close it"));
-  CHECK(!told.noted("says nothing of friction"));
+  CHECK(!told.noted("gives no friction"));
 }
 
 TEST_CASE("how a hand closes is guessed where <clench> has no word of it") {

@@ -110,7 +110,7 @@ TEST_CASE(
         std::vector<std::string>{
             "a.vgr:7: contact 1: location and translation differ; the translation is used",
             "a.vgr:7: contact 1: normal and rotation differ by 1.57 rad; the rotation is used",
-            "a.vgr:9: what follows from 'more' on is not used"});
+            "a.vgr:9: text from 'more' on is not used"});
 }
 
 TEST_CASE("contacts written and read again are the same but for the last place of lengths") {

@@ -86,12 +86,12 @@ TEST_CASE("an unknown element is warned of, and what stands nowhere is at the or
         std::vector<std::string>{"w.xml:3: unknown element <grspableBody> in <world> is not used; "
                                  "did you mean 'graspableBody'?"});
   REQUIRE(notes.size() == 8);
-  CHECK(notes[0] == "w.xml:4: graspableBody: no <transform>; it stands at the origin");
+  CHECK(notes[0] == "w.xml:4: graspableBody: no <transform>; it is placed at the origin");
   CHECK(notes[1] ==
         "hand.cfg: no mass and no material is given; 0.3 kg of wood is assumed: 'hand_base', "
         "'hand_chain0_link0'");
   CHECK(notes[4] == "w.xml:5: robot: no <dofValues>; its DOFs start at their defaults");
-  CHECK(notes[5] == "w.xml:5: robot: no <transform>; it stands at the origin");
+  CHECK(notes[5] == "w.xml:5: robot: no <transform>; it is placed at the origin");
   CHECK(notes[6] == "w.xml: no mass is given; 0.3 kg is assumed");
 }
 
@@ -108,8 +108,9 @@ TEST_CASE("a name of another generation finds the file of this one, and a note s
   const WorldSpec w = read_world(file, options);
   CHECK(w.robots[0].robot.name == "hand");
   CHECK(w.bodies[0].body.name == "box");
-  CHECK(notes[0] == "w.xml:2: there is no models/robots/hand.xml; hand.cfg is taken");
-  CHECK(std::ranges::count(notes, "w.xml:4: there is no models/box.xml; box.iv is taken") == 1);
+  CHECK(notes[0] == "w.xml:2: there is no models/robots/hand.xml; hand.cfg is used instead");
+  CHECK(std::ranges::count(notes, "w.xml:4: there is no models/box.xml; box.iv is used instead") ==
+        1);
   // and in the other direction: text worlds find XML files
   folder.write("models/robots/iv/part.xml", "<root><geometryFile>box.iv</geometryFile></root>");
   folder.write("models/robots/claw.xml", "<robot type=\"Hand\"><palm>part.iv</palm></robot>");
@@ -134,7 +135,7 @@ TEST_CASE("what the root does not hold is taken from its other generation, with 
     CHECK(warnings.list ==
           std::vector<std::string>{"w.xml:2: models/box.xml is not below the root; " +
                                    (folder.path() / "Lib-old/models/box.iv").generic_string() +
-                                   " is taken"});
+                                   " is used instead"});
   }
 }
 

@@ -131,8 +131,9 @@ TEST_CASE("what a .urdf does not hold is told, a sentence each") {
   const auto urdf = written(robot, out.path() / "hand.urdf");
   const std::vector<std::string> expected = {
       "hand.urdf: 'chain0_joint0_frame' is a frame without mass between two joints of one link",
-      "hand.urdf: DOF 0 counts 0.7 times as far in it, as its joint 'chain0_joint0' does",
-      "hand.urdf: the frames of these links are others in it, on the axes of their joints: "
+      "hand.urdf: the values of DOF 0 are multiplied by 0.7 in it, to equal those of its joint "
+      "'chain0_joint0'",
+      "hand.urdf: these links have other frames in it, on the axes of their joints: "
       "'chain0_link1'",
       "hand.urdf does not hold the 1 tactile sensors",
       "hand.urdf does not hold the 1 tendons and 1 wrappers"};
@@ -230,7 +231,7 @@ TEST_CASE("robots of the original stand in a .urdf as they did") {
     // DOFs that move no joint are lost, and some have other values in the file
     const bool same = std::ranges::none_of(urdf.lost, [](const std::string& sentence) {
       return sentence.find("moves no joint") != std::string::npos ||
-             sentence.find("times as far") != std::string::npos;
+             sentence.find("are multiplied by") != std::string::npos;
     });
     if (same) CHECK(largest_gap(robot, urdf.robot, 3) < 1e-12);
   }

@@ -248,7 +248,9 @@ TEST_CASE("leaders keep their DOF's order, opposite and partial ratios their sen
   check_outline(robot, urdf.robot);
   CHECK(urdf.robot.dofs[0].name == "first");
   CHECK(urdf.robot.dofs[1].name == "second");
-  CHECK(urdf.told("hand.urdf: DOF 0 counts 0.5 times as far in it, as its joint 'first' does"));
+  CHECK(
+      urdf.told("hand.urdf: the values of DOF 0 are multiplied by 0.5 in it, to equal those of its "
+                "joint 'first'"));
   // values of a DOF are those of its first joint, in the DOF's direction
   Random random(4, 0);
   for (int k = 0; k < 10; ++k) {

@@ -244,7 +244,8 @@ TEST_CASE("what cannot be written is refused in a sentence") {
   const TemporaryFolder folder;
   const WorldSpec world = read_world(library / "claw.wld");
   CHECK_THROWS_WITH_AS(write_world(world, folder.path() / "w.txt"),
-                       "w.txt: expected a world to .xml, .mjcf, .wld or .lua, got '.txt'", Error);
+                       "w.txt: expected the extension .xml, .mjcf, .wld or .lua, got '.txt'",
+                       Error);
   CHECK_THROWS_WITH_AS(write_world(world, "no/such/w.wld"),
                        "no/such/w.wld: the file cannot be written: no such folder: no/such", Error);
   CHECK_THROWS_WITH_AS(write_world(world, folder.path() / "w.wld", {.root = "no/such"}),
@@ -263,11 +264,11 @@ TEST_CASE("what cannot be written is refused in a sentence") {
   made = world;
   made.bodies[0].body = read_body(odd);
   CHECK_THROWS_WITH_AS(write_world(made, folder.path() / "w.wld"),
-                       "the name of a file cannot stand in a line of a .wld: 'a?b.iv'", Error);
+                       "the name of a file cannot be written in a line of a .wld: 'a?b.iv'", Error);
   CHECK_NOTHROW(write_world(made, folder.path() / "w.xml"));
   made.bodies[0].body = read_body(folder.write("#a.iv", "#Inventor V2.1 ascii\nCube { }\n"));
   CHECK_THROWS_WITH_AS(write_world(made, folder.path() / "w.wld"),
-                       "the name of a file cannot stand in a line of a .wld: '#a.iv'", Error);
+                       "the name of a file cannot be written in a line of a .wld: '#a.iv'", Error);
   CHECK_NOTHROW(write_world(made, folder.path() / "w.xml"));
 }
 

@@ -125,17 +125,16 @@ TEST_CASE("what is no well-formed XML is told with its line") {
   const std::string expected = "expected well-formed XML, got ";
   CHECK(refusal("<a>\n<b>\n</c>\n</a>") == "a.xml:2: " + expected + "<b> without its closing tag");
   CHECK(refusal("<a>\n<b\nc='1'\n") ==
-        "a.xml:2: " + expected + "<b> that does not end, or begins as none");
+        "a.xml:2: " + expected + "<b> that does not end, or has no name");
   CHECK(refusal("<a>\n <b>\n  text\n\n\n") ==
         "a.xml:3: " + expected + "text outside all elements, or in one that does not end");
   for (const char* attribute : {"c=1", "c=", "c", "c='1", "c='1' c='2'"})
     CHECK(refusal(fmt::format("<a>\n<b {}/></a>", attribute)) ==
           "a.xml:2: " + expected +
-              "<b> with an attribute that stands twice or has no value in quotes");
-  CHECK(refusal("<a 'b'/>") ==
-        "a.xml:1: " + expected + "a tag that does not end, or begins as none");
+              "<b> with an attribute that is repeated or has no value in quotes");
+  CHECK(refusal("<a 'b'/>") == "a.xml:1: " + expected + "a tag that does not end, or has no name");
   CHECK(refusal("<a>1 < 2</a>") ==
-        "a.xml:1: " + expected + "an element that does not end, or a '<' that begins none");
+        "a.xml:1: " + expected + "an element that does not end, or a '<' that begins no element");
   CHECK(refusal("<a>\n<!-- no end </a>") == "a.xml:2: " + expected + "a comment that does not end");
   CHECK(refusal("<a>\n<![CDATA[ no end </a>") ==
         "a.xml:2: " + expected + "CDATA that does not end");

@@ -33,7 +33,7 @@ test("a body without area, and objects too small or too large for any hand, are 
   end
   t.equal(doubts {vertices = {{0, 0, 0}, {0.1, 0, 0}, {0.2, 0, 0}}, triangles = {{1, 2, 3}}},
           {"suspicious world:add_object: mesh: none of its triangles has an area",
-           "suspicious world:add_object: mesh: no inertia is given, and the surface bounds no solid; it is that of a ball around it"})
+           "suspicious world:add_object: mesh: no inertia is given, and the surface bounds no solid; that of a ball around it is assumed"})
   t.equal(doubts(clench.shapes.box {100, 20, 30}),
           {"suspicious world:add_object: mesh: it is 100 m large: is its unit right?"})
   t.equal(doubts(clench.shapes.box {1e-4, 1e-4, 1e-4}),

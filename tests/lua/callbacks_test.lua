@@ -68,7 +68,7 @@ local entries = {
   {"clench.parallel.map: items[1]", function(fn)
     local results = clench.parallel.map(fn, {1})
     if results[1].error then error(results[1].error, 0) end
-  end, wrong = "the result: a function cannot be handed over", by_text = true},
+  end, wrong = "the result: a function cannot be copied to another state", by_text = true},
   {"clench.parallel.map: each", function(fn) clench.parallel.map(function(x) return x end, {1}, {each = fn}) end},
   {"energy", function(fn)
     local hand, object = hand_and_object()

@@ -83,7 +83,7 @@ test("clients that never speak yield their places, and those that have spoken ke
   local guest = connect(server, false)  -- speaks, but does not know the token
   t.equal(guest.call("world.hash").error.code, -32001)
   local early = clench.port.connect("127.0.0.1", server.port)
-  t.equal(early:read_line(5), "Error: the server has 4 clients and takes no more")
+  t.equal(early:read_line(5), "Error: the server has 4 clients and accepts no more")
   server.max_silence = 0
   local a, b = connect(server), connect(server)
   t.equal({silent:read_line(5)}, {nil, "closed"})
@@ -91,7 +91,7 @@ test("clients that never speak yield their places, and those that have spoken ke
   t.equal(reasons, {"another client took its place", "another client took its place"})
   for _, client in ipairs {known, a, b} do t.ok(client.get "world.hash") end
   local late = clench.port.connect("127.0.0.1", server.port)
-  t.equal(late:read_line(5), "Error: the server has 4 clients and takes no more")
+  t.equal(late:read_line(5), "Error: the server has 4 clients and accepts no more")
   text:write "getRobotName 1 0\n"
   t.equal(text:read_line(5), "barrett")
 end)

@@ -208,7 +208,7 @@ test("controllers may remove bodies and restore snapshots, but not start another
   t.close(world.time, 0.1, 1e-12)
   t.close(box.pose.position.z, 1 - 0.5 * 9.81 * 0.01, 1e-2)
   world:on_step(function() world:run(1) end)
-  t.fails(function() world:run(0.1) end, "world:run: the world runs already")
+  t.fails(function() world:run(0.1) end, "world:run: the world is already running")
   -- another world may run
   local a, b = falling_box(), falling_box()
   a:on_step(function() b:run(0.001) end)
@@ -452,10 +452,10 @@ end)
 test("the halves of a step cannot be called within a run", function(t)
   local world = falling_box()
   world:on_step(function() world:move_bodies(0.001) end)
-  t.fails(function() world:run(0.01) end, "world:move_bodies: the world runs already: what is called in a run cannot step it")
+  t.fails(function() world:run(0.01) end, "world:move_bodies: the world is already running: functions called during a run cannot step it")
   world = falling_box()
   world:on_step(function() world:solve_velocities(0.001) end)
-  t.fails(function() world:run(0.01) end, "world:solve_velocities: the world runs already: what is called in a run cannot step it")
+  t.fails(function() world:run(0.01) end, "world:solve_velocities: the world is already running: functions called during a run cannot step it")
 end)
 
 test("with breakaway, the fingertip of a blocked link continues to close, and without it both stop", function(t)
@@ -528,7 +528,7 @@ test("logs and recordings of a world stepped by a script equal those of a run", 
   t.equal(#film.times, 6)
   -- a function that cannot step the world at that point is named
   world:log {quantities = {mine = function() world:run(1) end}}
-  t.fails(function() world:move_bodies(0.001) end, "the world runs already", "function 'mine' of world:log")
+  t.fails(function() world:move_bodies(0.001) end, "the world is already running", "function 'mine' of world:log")
   local fresh = clench.world()
   fresh:log {quantities = {mine = function() error "broken" end}}
   t.fails(function() fresh:solve_velocities(0.001) end, "broken", "function 'mine' of world:log")

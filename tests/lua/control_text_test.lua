@@ -245,10 +245,10 @@ test("misbehaving clients are dropped, and others continue", function(t)
     t.equal(ask("getRobotName 1 0", 1), {hand.name})
     loop.sleep(0.01)
   end
-  t.equal(gone, {"an HTTP request", "a line was too long", "it does not read"})
+  t.equal(gone, {"an HTTP request", "a line was too long", "it does not receive"})
   local others = {}
   for i = 1, 3 do others[i] = clench.port.connect("127.0.0.1", server.port) end
-  t.equal(others[3]:read_line(5), "Error: the server has 3 clients and takes no more")
+  t.equal(others[3]:read_line(5), "Error: the server has 3 clients and accepts no more")
   -- half a line, and an end of input that still gets its replies
   others[1]:write "getRobot"
   others[1]:close()

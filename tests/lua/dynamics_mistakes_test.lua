@@ -42,7 +42,7 @@ test("overlaps and contradictory demands are reported once, after a run", functi
   left.velocity = {linear = {0.1, 0, 0}}
   said = table.concat(t.warnings(function() world:run(0.01) end), "\n")
   t.ok(world.report.failures > 0)
-  t.ok(said:find("world:run: some steps ask of contacts, limits and motors what cannot be at once; what comes nearest was done; " ..
+  t.ok(said:find("world:run: in some steps contacts, limits and motors contradict each other, and the nearest solution was used; " ..
     "world.report.failures counts them", 1, true), said)
 end)
 

@@ -166,7 +166,7 @@ test("logged messages are collected as values", function(t)
   t.ok(name)
   t.equal(list[1], {severity = "warning", text = "twice", count = 2})
   local unknown
-  for _, d in ipairs(list) do unknown = d.text:find "not known" and d or unknown end
+  for _, d in ipairs(list) do unknown = d.text:find "is unknown" and d or unknown end
   t.equal({unknown.severity, unknown.line, unknown.about}, {"warning", 9, "ignored"})
   t.ok(path:find(unknown.file, 1, true))
   -- the sink and the level are restored, also after an error

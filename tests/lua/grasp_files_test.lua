@@ -59,7 +59,7 @@ test("a grasp without a hand needs one, which must be in the given world", funct
   local file = test.path ".json"
   list:save(file, {format = "graspgen"})
   local back = clench.grasps(file)[1]
-  t.fails(function() back:apply(world, {object = world.objects[1]}) end, "it does not name its hand; one has to be given")
+  t.fails(function() back:apply(world, {object = world.objects[1]}) end, "it does not name its hand; give one")
   t.fails(function() back:apply(world, {hand = world:clone().robots[1]}) end, "hand: expected one of that world, got one of another")
   t.fails(function() back:apply(world, {hands = 1}) end, "unknown key 'hands'")
   local before = world.robots[1].dofs
@@ -91,7 +91,7 @@ test("edited DOFs that contradict unedited joints are rejected", function(t)
   local hand = world.robots[1]
   local before = hand.dofs
   local edited = with(function(s) return s:gsub('"dofs":%[[^,]*,', '"dofs":[0.123,') end)
-  t.fails(function() edited:apply(world) end, "and its DOF puts it at 0.123; without 'joints' the DOFs tell all")
+  t.fails(function() edited:apply(world) end, "and its DOF puts it at 0.123; omit 'joints' to use the DOFs alone")
   t.equal(hand.dofs, before)
   local alone = with(function(s) return s:gsub('"dofs":%[[^,]*,', '"dofs":[0.123,'):gsub('"joints":%[[^%]]*%],?', "") end)
   alone:apply(world)

@@ -54,7 +54,7 @@ test("DOFs without names cause a warning, and dof_order gives their order", func
   t.fails(function() clench.grasps(file, {dof_order = "isaac"}) end, "dof_order: expected the option 'hand' with it, or a list of names, got neither")
   local with_names = multigripper("1, 0, 0, 0", '["a1", "a2", "b1", "b2"]')
   said = warned(function() clench.grasps(with_names, {dof_order = "isaac", hand = hand}) end)
-  t.ok(said[1] and said[1]:find("it names DOFs, for which dof_order is not used", 1, true), said[1])
+  t.ok(said[1] and said[1]:find("it names its DOFs, so dof_order is not used", 1, true), said[1])
 end)
 
 test("values of followers may be listed, and those that do not follow cause a warning", function(t)

@@ -28,7 +28,7 @@ test("an inferred unit is logged, and a given one is not", function(t)
   t.equal(#lines, 7)
   t.ok(lines[1]:find("info .*120 x 120 x 120, is taken for mm"), lines[1])
   t.ok(lines[2]:find("info .*: no mass and no material is given; 0.3 kg of wood is assumed"), lines[2])
-  t.ok(lines[3]:find("info .*: no inertia is given; that of a solid of one density is assumed"), lines[3])
+  t.ok(lines[3]:find("info .*: no inertia is given; that of a uniform solid is assumed"), lines[3])
   t.ok(lines[4]:find("info .*: no inertia is given"), lines[4])
   -- a density is used
   t.ok(lines[5]:find("info .*: no material is given; wood is assumed"), lines[5])

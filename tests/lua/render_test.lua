@@ -10,9 +10,9 @@ test("an invalid size and an up vector along the view are rejected by name", fun
   fails({size = {100, 15}}, "size: expected whole numbers of pixels, 16 to 8192, got 15")
   fails({size = {1e9, 100}}, "size: expected whole numbers of pixels, 16 to 8192, got 1000000000")
   fails({size = {10}}, "size: expected 2 numbers, got 1")
-  fails({eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, 1}}, "expected eye and target apart, and up not along the view")
-  fails({eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, -3}}, "up not along the view")
-  fails({up = {0, 0, 0}}, "up not along the view")
+  fails({eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, 1}}, "expected different eye and target, and up in another direction than the view")
+  fails({eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, -3}}, "up in another direction than the view")
+  fails({up = {0, 0, 0}}, "up in another direction than the view")
 end)
 
 test("options of figures are rejected by name", function(t)

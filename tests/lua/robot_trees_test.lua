@@ -99,7 +99,7 @@ test("a robot is fixed to any link by its name, and to the last of a chain by nu
   world:save(file .. ".lua", {root = "."})
   t.equal(clench.load(file .. ".lua", {root = "."}):hash(), world:hash())
   -- the formats of the original only support the last links of chains
-  t.fails(function() world:save(file .. ".wld", {root = "."}) end, "which ends no chain")
+  t.fails(function() world:save(file .. ".wld", {root = "."}) end, "which is not the last link of a chain")
 end)
 
 test("a snapshot restores into clones, and into no other world", function(t)
@@ -116,7 +116,7 @@ test("a snapshot restores into clones, and into no other world", function(t)
   world:restore(later)
   t.equal(#world.objects, 2)
   t.equal(world.objects[1].mass, 2)
-  t.fails(function() clench.world():restore(moment) end, "taken of another one, of which this is no clone")
+  t.fails(function() clench.world():restore(moment) end, "belongs to another world, of which this is no clone")
 end)
 
 local function turntable(joint_type, limit)

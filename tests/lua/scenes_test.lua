@@ -177,7 +177,7 @@ end)
 test("one robot of a scene is selected by its first body", function(t)
   local world = clench.world()
   t.equal(#world:add_robot(scene, {body = "arm", pose = {xyz = {0, 0, 1}}}).links, 1)
-  t.fails(function() world:add_robot(scene, {body = "mug"}) end, "body: expected one that a tree of joints begins with, got 'mug', expected one of arm, door")
+  t.fails(function() world:add_robot(scene, {body = "mug"}) end, "body: expected the root of a tree of joints, got 'mug', expected one of arm, door")
   -- it is loaded and written in the same way
   t.equal(#clench.load(scene, {body = "door"}).robots, 1)
   t.equal(clench.convert(scene, folder .. "/arm.urdf", {body = "arm"}), "robot")

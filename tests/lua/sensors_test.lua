@@ -130,7 +130,7 @@ test("a real hand and the simulated one follow each other, and a stop ends the m
   connect(t, session, "hand", device)
   session.hand.dofs = {0.2, 0.4, 0.5, 0.6}
   session:run("sensors.push", {max_speed = 10})
-  t.fails(function() session:run "sensors.push" end, "the real hand moves already")
+  t.fails(function() session:run "sensors.push" end, "the real hand is already moving")
   run_until(t, function() return session.sensors.hand.task == nil end)
   renew(t, session, "hand")
   angles_close(t, session.sensors.hand.reading, {0.2, 0.4, 0.5, 0.6}, 1e-3)

@@ -104,9 +104,9 @@ test("collisions are switched for the world, a body, a pair and the selection, a
   t.equal(world:hash(), first)
   -- a pair of which one is missing is not taken for the complete world
   session.selection = {}
-  t.fails(function() session:run("body.collisions", {other = "mug"}) end, "other: expected one body beside it, got 0")
+  t.fails(function() session:run("body.collisions", {other = "mug"}) end, "other: expected exactly one body as the first of the pair, got 0")
   session:run("world.select", {addresses = {"mug", "barrett"}})
-  t.fails(function() session:run("body.collisions", {other = "mug"}) end, "other: expected one body beside it, got 2")
+  t.fails(function() session:run("body.collisions", {other = "mug"}) end, "other: expected exactly one body as the first of the pair, got 2")
   t.equal(world:hash(), first)
 end)
 

@@ -154,7 +154,7 @@ test("an arm brings its hand to the pose of the grasp, or everything stays if it
   glass.pose = clench.pose {xyz = {9, 0, 0}} * glass.pose
   hand:open()
   local opened, posture = hand.dofs, arm.dofs
-  t.fails(function() grasp:apply() end, "grasp of glass by barrett: 'puma560' cannot bring the hand there; at best it stands")
+  t.fails(function() grasp:apply() end, "grasp of glass by barrett: 'puma560' cannot bring the hand there; at best it is")
   t.equal(hand.dofs, opened)
   t.equal(arm.dofs, posture)
 end)
@@ -245,7 +245,7 @@ test("letters that a chart cannot draw are named once per chart", function(t)
   draw "一丁丂七丄丅丆万丈三上下丌不与丏丐丑丒专"
   clench.log.sink(nil)
   t.equal(#heard, 2)
-  t.equal(heard[1], "warning: chart: drawn as boxes are the letters U+529B, U+624B")
+  t.equal(heard[1], "warning: chart: these characters are drawn as boxes: U+529B, U+624B")
   t.ok(heard[2]:find "and 12 more$")
 end)
 

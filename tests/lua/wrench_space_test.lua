@@ -87,7 +87,7 @@ test("faulty contacts are reported by their number", function(t)
   refused({contacts = {good, {point = {0, 1, 0}, normal = {0, -1, 0}, mu = -1}}}, "contacts[2]: mu must be 0 to 1000000, got -1")
   refused({contacts = {good, {point = {0, 1, 0}, mu = 1}}}, "contacts[2]: normal: expected a vec3 or {x, y, z}, got nil")
   refused({contacts = {a = good}}, "contacts: expected a list of contacts, got a table with the key 'a'")
-  refused({contacts = {good}, coordinates = {"fx", "fx"}}, "coordinates: fx is there twice")
+  refused({contacts = {good}, coordinates = {"fx", "fx"}}, "coordinates: fx is given twice")
   refused({contacts = {good}, coordinates = {1, k = 2}}, "coordinates: expected a list of coordinates")
 end)
 

@@ -142,7 +142,8 @@ TEST_CASE("links that overlap when a robot is loaded are switched off, and repor
   CHECK(colliding_pairs(world).empty());
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0] ==
-        "robot 'gripper': these of its bodies overlap as it is loaded, and may from now on: "
+        "robot 'gripper': these of its bodies overlap when it is loaded, and never collide from "
+        "now on: "
         "gripper_base and "
         "gripper_chain0_link1");
 }

@@ -118,7 +118,7 @@ TEST_CASE("a snapshot of another world is rejected") {
   World world, other;
   const auto hash = world.hash();
   CHECK_THROWS_WITH_AS(world.restore(*other.snapshot()),
-                       "world: the snapshot was taken of another one, of which this is no clone",
+                       "world: the snapshot belongs to another world, of which this is no clone",
                        Error);
   CHECK(world.hash() == hash);
   World clone = world, second = clone;

@@ -277,11 +277,10 @@ TEST_CASE("invalid values of mass, inertia, modulus, threshold, material and nam
                        "body 'a': mass: expected a number from 1e-12 to 1e+12 [kg], got -1", Error);
   CHECK_THROWS_WITH_AS(world.set_com(a, {NAN, 0, 0}),
                        "body 'a': com: expected a number from -1e+09 to 1e+09 [m], got nan", Error);
-  CHECK_THROWS_WITH_AS(
-      world.set_inertia(a, Eigen::Vector3d(1, 1, -1).asDiagonal()),
-      "body 'a': inertia: expected a positive definite matrix with moments of 1e-24 to "
-      "1e+20 m^2 a kilogram, got another",
-      Error);
+  CHECK_THROWS_WITH_AS(world.set_inertia(a, Eigen::Vector3d(1, 1, -1).asDiagonal()),
+                       "body 'a': inertia: expected a positive definite matrix with moments of "
+                       "1e-24 to 1e+20 m^2 per kilogram, got another",
+                       Error);
   CHECK_THROWS_WITH_AS(
       world.set_elastic_modulus(a, 0),
       "body 'a': elastic modulus: expected a number from 0.001 to 1e+15 [Pa], got 0", Error);

@@ -183,7 +183,7 @@ TEST_CASE("invalid options of a search are rejected") {
                        "annealing: every variable is fixed", Error);
   TestChain a = chain(scene, 1);
   std::vector<Share> twice{{a.search.get(), 1}, {a.search.get(), 1}};
-  CHECK_THROWS_WITH_AS(run_together(twice, 1), "searches that run together need a world each",
+  CHECK_THROWS_WITH_AS(run_together(twice, 1), "searches that run at once need separate worlds",
                        Error);
   CHECK_THROWS_WITH_AS(run_together(std::span(twice).first(1), 0),
                        "threads: expected 1 to 1024, got 0", Error);

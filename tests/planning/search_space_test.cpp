@@ -143,7 +143,7 @@ TEST_CASE("impossible settings of variables are rejected by name") {
   const HandScene scene = hand_scene("barrett/barrett.cfg", "mug.iv");
   SearchSpace space(scene.robot(), scene.state(), {});
   CHECK_THROWS_WITH_AS(space.add_variable({.name = "Tx"}),
-                       "search variable 'Tx': the name comes twice", Error);
+                       "search variable 'Tx': the name is used twice", Error);
   CHECK_THROWS_WITH_AS(SearchSpace(scene.robot(), scene.state(), {.semi_axes = {0.1, 0, 0.1}}),
                        "search space: semi-axes: expected lengths > 0 [m], got 0", Error);
 }

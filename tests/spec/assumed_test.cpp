@@ -44,12 +44,12 @@ TEST_CASE("assumed values are reported for each body that has them") {
         Sentences{
             "w.wld: no mass and no material is given; 0.3 kg of wood is assumed: 'bare', 'bare'",
             "w.wld: no mass is given; 0.3 kg is assumed: 'weightless'",
-            "w.wld: no inertia is given; that of a solid of one density is assumed: 'full', "
-            "'weightless', 'bare', 'bare'"});
+            "w.wld: no inertia is given; that of a uniform solid is assumed: 'full', 'weightless', "
+            "'bare', 'bare'"});
   CHECK(told.suspected.empty());
   CHECK(Told({bare}).notes ==
         Sentences{"w.wld: no mass and no material is given; 0.3 kg of wood is assumed",
-                  "w.wld: no inertia is given; that of a solid of one density is assumed"});
+                  "w.wld: no inertia is given; that of a uniform solid is assumed"});
   full.inertia_told = true;
   CHECK(Told({full}).notes.empty());
 }
@@ -61,8 +61,8 @@ TEST_CASE("an inertia is assumed to be that of a ball only with a warning") {
   CHECK(inertia_is_of_ball(sheet));
   CHECK_FALSE(inertia_is_of_ball(closed));
   CHECK(Told({closed, sheet}).suspected ==
-        Sentences{"w.wld: no inertia is given, and the surface bounds no solid; it is that of a "
-                  "ball around it: 'sheet'"});
+        Sentences{"w.wld: no inertia is given, and the surface bounds no solid; that of a ball "
+                  "around it is assumed: 'sheet'"});
   sheet.inertia_per_mass = Eigen::Matrix3d::Identity();
   CHECK(Told({closed, sheet}).suspected.empty());
 }

@@ -290,7 +290,7 @@ TEST_CASE("an inertia is symmetric and positive definite, and no moment exceeds 
                        "cup: inertia: expected a symmetric matrix, got one that is not", Error);
   CHECK_THROWS_WITH_AS(check_inertia(diagonal_inertia(1, 1, -1), "cup"),
                        "cup: inertia: expected a positive definite matrix with moments of 1e-24 to "
-                       "1e+20 m^2 a kilogram, got another",
+                       "1e+20 m^2 per kilogram, got another",
                        Error);
   CHECK_THROWS_WITH_AS(
       check_inertia(diagonal_inertia(1, 1, 100), "cup"),

@@ -328,7 +328,7 @@ void measure(World& world, Manifold& m) {
   m.points = std::move(points);
 }
 
-// is there nothing that a force could move?
+// true if no force can move the body
 static bool is_prescribed(const System& system, System::Place place) {
   return place.tree < 0 || system.trees[place.tree].size() == 0;
 }

@@ -17,7 +17,7 @@ void close_by_motors(World& world, Id<Robot> robot, double speed);
 void send_dof(World& world, Id<Robot> robot, int dof, double target, double velocity);
 
 /// For every chain: does its last link touch something, is its last joint's DOF within 0.03 of its
-/// closing limit, or has it come to rest after the time in which it was to close?
+/// closing limit, or is it at rest after the expected closing time?
 bool has_closed(const World& world, Id<Robot> robot);
 
 }  // namespace clench

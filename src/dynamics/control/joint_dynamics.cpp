@@ -18,7 +18,7 @@ JointDynamics joint_dynamics(const World& world, Id<Robot> id) {
   const auto tree = std::ranges::find_if(system.trees, moves);
   if (tree == system.trees.end()) return out;
 
-  // a state with all that a run's state has
+  // edit_dynamics() completes the state of the copy, as at the start of a run
   World copy = world;
   const DynamicState& state = copy.edit_dynamics();
   Eigen::VectorXd v;

@@ -142,7 +142,7 @@ void pull_tendons(const World& world, Id<Robot> id, double h, DynamicState& stat
     }
     if (!(stiffness > 0)) continue;
     double speed;
-    if (control.mode == ControlMode::effort)  // until the springs give it
+    if (control.mode == ControlMode::effort)  // the speed at which the springs reach the effort
       speed = (control.effort - force) / (stiffness * step);
     else if (control.mode == ControlMode::velocity)
       speed = control.velocity;

@@ -68,7 +68,7 @@ class Meetings {
       : world_(world), mover_(mover), dt_(dt), max_time_(dt), overlap_time_(dt) {}
 
   /// Examines a pair with everything placed at dt: either it has arrived without colliding, or it
-  /// is recorded how time() advances it.
+  /// is queued for time(), with the method by which to advance it.
   void follow(int manifold);
   /// Part of dt that passes until the first collision [s].
   double time();

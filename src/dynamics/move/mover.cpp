@@ -96,7 +96,8 @@ static constexpr double turns_along = 0.01;
 // Slip below this speed counts as sticking, and slips that differ by less count as equal [m/s].
 static constexpr double stick_speed = 1e-3, same_slip = 1e-6;
 
-// Which bodies press on which, and which of them move along with each other.
+// Contacts by which bodies press on each other; finds for each body the one with which it moves
+// along.
 class Mover::Carriers {
  public:
   Carriers(const World& world, const System& system);

@@ -30,7 +30,7 @@ void start_ode() {
     return true;
   }();
   if (!started || dAllocateODEDataForThread(dAllocateFlagBasicData) == 0)
-    fail(ErrorKind::internal, "dynamics: ODE cannot start: it has no memory");
+    fail(ErrorKind::internal, "dynamics: ODE cannot start: out of memory");
 }
 
 int take_ode_warnings() {

@@ -66,8 +66,8 @@ void OdeScene::add_row(const CoordinateRow& row) {
                                      h_ * made.ratio * made.ratio * row.compliance, most);
     return dJointSetFeedback(motor, made.feedback.get());
   }
-  // the error of a stop times its ERP is its target velocity: an error of one, and an ERP equal to
-  // ours
+  // ODE corrects the error of a stop at the velocity error * ERP / h: with an error of 1, ERP / h is
+  // the target velocity of the row
   made.stop = true;
   const bool low = (row.kind == RowKind::low_limit) == (made.ratio > 0);
   const double target = made.ratio * row.target;

@@ -277,7 +277,7 @@ void OdeScene::step() {
   constexpr int iterations = 2000;
   dWorldSetQuickStepNumIterations(ode_.get(), iterations);
   if ((iterates_ ? dWorldQuickStep(ode_.get(), h_) : dWorldStep(ode_.get(), h_)) == 0)
-    fail(ErrorKind::limit, "dynamics: ODE has no memory for a step");
+    fail(ErrorKind::limit, "dynamics: ODE is out of memory for a step");
 }
 
 Twist OdeScene::root_twist(int tree) const {

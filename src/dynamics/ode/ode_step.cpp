@@ -85,7 +85,7 @@ class Coupler {
       g[i] =
           scene_.joint_velocity(c.tree, c.joint) - c.share * scene_.joint_velocity(c.tree, c.lead);
     }
-    if (!g.allFinite()) fail("dynamics: ODE gives velocities that are no numbers");
+    if (!g.allFinite()) fail("dynamics: ODE returns velocities that are not numbers");
     return g;
   }
 
@@ -156,7 +156,7 @@ OdeSolution step_ode(const World& world, const OdeProblem& problem, double h) {
         out.v[tree.first + c] =
             scene.joint_velocity(static_cast<int>(t), lead) / tree.joints[lead].ratio;
   }
-  if (!out.v.allFinite()) fail("dynamics: ODE gives velocities that are no numbers");
+  if (!out.v.allFinite()) fail("dynamics: ODE returns velocities that are not numbers");
   for (size_t i = 0; i < problem.rows.size(); ++i)
     out.row_impulses.push_back(scene.row_impulse(static_cast<int>(i)));
   for (size_t i = 0; i < problem.contacts.size(); ++i) {

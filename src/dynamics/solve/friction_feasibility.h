@@ -4,10 +4,10 @@
 
 namespace clench {
 
-/// false: some velocities u = W r + q, whatever r, are such that nothing holds them up: u_n >= mu
-/// |u_t| at contacts, within what an infinite bound asks for in other rows. Then, but for the
-/// cone's very boundary, there is a solution. true: it is proved that there are none, as with two
-/// opposite limits that both ask for the other side.
+/// Do the laws of a problem possibly contradict each other? false: some impulses r give velocities
+/// u = W r + q with u_n >= mu |u_t| at contacts, and with the signs required by infinite bounds in
+/// other rows; then there is a solution, except possibly on the very boundary of a cone. true: it
+/// is proved that there are no such impulses, as for two opposite limits that both require more.
 ///
 /// source  Acary, Cadoux, Lemaréchal & Malick (2011), A formulation of the linear discrete Coulomb
 ///         friction problem via convex optimization

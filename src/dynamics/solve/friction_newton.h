@@ -48,7 +48,7 @@ class FrictionNewton {
   /// returns  false: the matrix is singular
   bool refine(const ScaledFriction& problem, double damping, const Eigen::VectorXd& u,
               Eigen::VectorXd& r);
-  /// Progress that may stop the following calls, with Stopped.
+  /// Progress whose stop request ends the following calls with Stopped.
   void watch(const Progress& progress) { progress_ = progress; }
 
  private:

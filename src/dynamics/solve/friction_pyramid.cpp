@@ -50,7 +50,7 @@ struct Complementarity {
   VectorXd start;
   MatrixXd coupling;  // of M, in addition to rows^T S rows
   VectorXd offset;    // of q, in addition to rows^T (S start + q)
-  VectorXd units;     // unit of a w in velocities of the problem
+  VectorXd units;     // velocity of the problem that is 1 in w
 };
 
 int count_unknowns(const ScaledFriction& problem, const std::vector<MatrixXd>& edges) {
@@ -138,8 +138,8 @@ PyramidSolution solve_pyramid(const ScaledFriction& problem, double damping, con
                               const std::vector<MatrixXd>& edges) {
   if (const int count = count_unknowns(problem, edges); count > max_unknowns)
     fail(ErrorKind::limit,
-         "dynamics: cone 'pyramid': expected at most {} edges and bounds of things that touch each "
-         "other, got {}; use cone 'round' or fewer edges",
+         "dynamics: cone 'pyramid': expected at most {} edges and bounds in a group of touching "
+         "bodies, got {}; use cone 'round' or fewer edges",
          max_unknowns, count);
   Complementarity c = put_together(problem, edges);
   MatrixXd S = problem.S;

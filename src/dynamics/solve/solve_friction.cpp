@@ -14,8 +14,9 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// fraction of a block's own diagonal: redundant contacts share their load equally to 1e-8 wherever
-// Newton starts, and what is 1e8 times as soft as a contact itself does not count as redundant
+// fraction of a block's own diagonal: redundant contacts share their load equally to 1e-8 from any
+// start of Newton's method; softness of 1e8 times that of a contact itself does not count as
+// redundancy
 constexpr double damping = 1e-8;
 // If the forces of the last step have residuals below this and continuation fails, they are changed
 // as little as possible: a nearly resting body would otherwise alternate between solutions [m/s].

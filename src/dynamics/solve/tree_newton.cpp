@@ -49,7 +49,7 @@ double TreeNewton::classify(const TreeFriction& problem, const VectorXd& r, cons
   return energy / 2;
 }
 
-// Unit directions across t.   returns  how many: one of two tangents, two of three
+// Unit directions across t.   returns  their number: one for two tangents, two for three
 static int across(int tangents, const double* t, double directions[2][3]) {
   if (tangents < 2) return 0;
   if (tangents == 2) {

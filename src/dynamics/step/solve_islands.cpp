@@ -140,7 +140,7 @@ void IslandSolver::gather_trees(const System& system, const StepProblem& problem
 
 // Removes the stabilization velocities from q: they may contradict limits and locks, whereas not
 // approaching never does.
-// returns  were there any?
+// returns  true if there were any
 bool IslandSolver::leave_out_push(const StepProblem& problem) {
   bool any = false;
   for (const int row : rows_) {

@@ -216,8 +216,8 @@ void RowBuilder::add_contact(int manifold, int point) {
   const double rolled = rolled_gap(world_, m, p, step), rest = rest_gap * threshold;
   target -= std::clamp(rolled, -rest, std::max(p.gap - rest, 0.0)) / step;
   // Newton's law of impact, if the free motion would press. Bodies move with the velocity that they
-  // had at the start of the step: what gravity or a motor accelerates arrives half a step's gain
-  // too fast, and would bounce by as much too far
+  // had at the start of the step: a body accelerated by gravity or a motor arrives too fast by half
+  // of the velocity gained in a step, and would bounce too far accordingly
   const double restitution = friction.restitution.value_or(std::max(a.restitution, b.restitution));
   double& q_normal = problem_.q[block.law.row];
   if (q_normal < target && before[0] < -min_bounce_speed) {
@@ -303,8 +303,8 @@ void RowBuilder::half_solve() {
       problem_.trees[t].half_solve(problem_.columns[t].Y.leftCols(count));
 }
 
-// The impulse of bodies that collide at the end of a shortened step, and of all that touches them,
-// is not a force of that short duration.
+// If bodies collide at the end of a shortened step, their impulse, and that of all bodies that
+// touch them, is not treated as a force over that short duration.
 void find_times(const World& world, StepProblem& problem) {
   const double h = problem.h, whole = std::max(h, world.dynamics()->whole_step);
   problem.tree_times.assign(problem.trees.size(), h);

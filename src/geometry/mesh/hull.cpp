@@ -61,7 +61,7 @@ int rank_of(const Normalized& n, double tolerance) {
 class Qhull {
  public:
   Qhull() : said_(fopencookie(this, "w", {nullptr, &Qhull::take_message, nullptr, nullptr})) {
-    if (!said_) fail(ErrorKind::limit, "convex_hull: no memory for qhull's messages");
+    if (!said_) fail(ErrorKind::limit, "convex_hull: out of memory for qhull's messages");
     std::setvbuf(said_, nullptr, _IONBF, 0);
     qh_zero(&state, said_);
   }
@@ -162,7 +162,7 @@ Hull convex_hull(const Eigen::MatrixXd& points) {
     }
     refusal = qhull.error();
   }
-  fail(ErrorKind::internal, "convex_hull: qhull refuses {} points in {} dimensions: {}",
+  fail(ErrorKind::internal, "convex_hull: qhull rejects {} points in {} dimensions: {}",
        points.cols(), hull.dimension, refusal);
 }
 

@@ -1,5 +1,5 @@
-// Convex hulls in 2 to 6 dimensions, by qhull. The rank is determined first: a flat set has no
-// hull, and its result says so.
+// Convex hulls in 2 to 6 dimensions, by qhull. The rank is determined first: the result for a flat
+// set has its rank, and no facets.
 #pragma once
 #include <Eigen/Core>
 #include <vector>

@@ -18,7 +18,7 @@ struct MassProperties {
 MassProperties solid_mass(const Mesh& mesh);
 
 /// Reverses the triangles of a closed mesh that is inside out, so that they face outward.
-/// returns  was it inside out?
+/// returns  true if it was inside out
 bool turn_outward(Mesh& mesh);
 /// Note on such a mesh, printed after its name.
 inline constexpr const char* inside_out = ": its triangles face inward; flipped to face outward";

@@ -59,7 +59,7 @@ void count_edges(const Mesh& mesh, MeshFaults& faults, const Progress& progress)
   // consecutive
   ByVertex edges(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles) {
-    if (repeats_a_vertex(t)) continue;  // it covers no side of any edge
+    if (repeats_a_vertex(t)) continue;  // such a triangle has no side
     for (int i = 0; i < 3; ++i) {
       const int from = t[i], to = t[(i + 1) % 3];
       edges.add(std::min(from, to), std::max(from, to), from > to);

@@ -153,7 +153,7 @@ class Exposure {
     return contains(shape_, p + step) != contains(shape_, p - step);
   }
 
-  // Adds the exposed part of a triangle.   returns  is the triangle exposed completely?
+  // Adds the exposed part of a triangle.   returns  true if the triangle is exposed completely
   bool add_exposed(int triangle, Mesh& out) const {
     if (without_area(shape_.mesh(), triangle)) return true;
     const Corners c = shape_.mesh().corners(triangle);

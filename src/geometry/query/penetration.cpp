@@ -295,7 +295,7 @@ class DeepestPoint {
     int count = 0;
 
     bool full() const { return count == max_game_rows; }
-    /// returns  is it new, and is there space for it?
+    /// returns  true if it is new, and there is space for it
     bool add(const GameRow& row, int triangle) {
       const auto end = triangles.begin() + count;
       if (full() || (triangle >= 0 && std::find(triangles.begin(), end, triangle) != end))

@@ -30,8 +30,8 @@ Pose checked_pose(const Pose& X_AB) {
   const Eigen::Quaterniond& q = X_AB.rotation;
   const double norm = q.norm();
   if (!(std::abs(norm - 1) < 0.1))
-    fail("geometry query: pose wants a unit quaternion, got ({}, {}, {}, {})", q.w(), q.x(), q.y(),
-         q.z());
+    fail("geometry query: pose: expected a unit quaternion, got ({}, {}, {}, {})", q.w(), q.x(),
+         q.y(), q.z());
   // beyond this, products of lengths exceed the range of doubles [m]
   constexpr double largest_offset = 1e30;
   const Vector3d& p = X_AB.position;

@@ -12,7 +12,8 @@
 
 namespace clench {
 
-/// Rounding error of a distance within the bounds, or at p or at the same distance as p [m]
+/// Rounding error of a distance at points within the bounds, or no farther from the origin than p
+/// [m]
 double rounding_of(const Bounds& bounds, const Eigen::Vector3d& p);
 
 /// fingerprint of a pair of shapes: equal for equal meshes in the same order

@@ -15,12 +15,12 @@
 
 namespace clench {
 
-/// The last measurement of a pair: if they have moved less since than their distance then, they do
-/// not collide.
+/// The last measurement of a pair: while the bodies have moved since then by less than their
+/// distance at that time, they do not collide.
 struct PairMeasure {
   uint64_t shapes = 0;  ///< fingerprint of both
   Pose X_AB;
-  double clear = 0;  ///< lower bound of the distance of the solids then; 0: unknown [m]
+  double clear = 0;  ///< lower bound of the distance of the solids at that time; 0: unknown [m]
 };
 
 /// Data that a pair of shapes keeps between queries. It affects the time of a query but no bit of

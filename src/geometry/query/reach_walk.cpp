@@ -226,8 +226,8 @@ class ReachWalk {
     return false;
   }
 
-  // Are the collected pairs within reach?
-  // returns  does the traversal end?
+  // Tests the collected pairs.
+  // returns  true if the traversal ends
   bool judge(PairVisit visit) {
     return waiting_.take(
         [&](const TrianglesOf<F>& a, const TrianglesOf<F>& b, unsigned all, const NearPair* pairs) {

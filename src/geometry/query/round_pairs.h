@@ -8,7 +8,7 @@
 
 namespace clench {
 
-/// Does one of the shapes have round pieces that count there?
+/// True if one of the shapes has pieces that are treated as round for the purpose `where`.
 inline bool are_round(const Shape& a, const Shape& b, RoundIn where) {
   return a.is_round(where) || b.is_round(where);
 }

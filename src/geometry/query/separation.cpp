@@ -11,11 +11,11 @@ namespace clench {
 
 namespace {
 
-// Two polytopes and a direction n, from a to b: where each lies nearest to the other along it.
-// Rounding, as in box_lanes.h: of radii r the mesh lies 16 u r beyond its bounding_polytope, the
-// corner chosen 11 u r before the farthest, n in the frame of b off by 9 u r; a corner of b in the
-// frame of a, and its difference along n, off by 14 u l. The query's slack of 64 u (l + r) covers
-// it.
+// Two polytopes, and the point of each that is nearest to the other along a direction n, from a to
+// b. Rounding, as in box_lanes.h: for radii r, the mesh extends up to 16 u r beyond its
+// bounding_polytope, the corner chosen is up to 11 u r short of the farthest, n in the frame of b
+// has an error of 9 u r; a corner of b in the frame of a, and its difference along n, have an error
+// of 14 u l. The query's slack of 64 u (l + r) covers it.
 class PolytopePair {
  public:
   explicit PolytopePair(const TreePair& pair)

@@ -89,8 +89,8 @@ double near_height(double slack, double drop);
 /// In the solid's frame. The x of a disc points to the farthest point of its rim. A point if no
 /// flat part lies within 30 degrees of the direction, or nothing of it is near.
 /// direction  unit
-/// slack      > 0, how much less far along the direction near points may lie, as in near_height();
-///            infinite: all of the flat part is near [m]
+/// slack      > 0, maximum by which near points may lie less far along the direction, as in
+///            near_height(); infinite: all of the flat part is near [m]
 FlatPart flat_part(const Round& round, const Eigen::Vector3d& direction, double slack);
 
 }  // namespace clench

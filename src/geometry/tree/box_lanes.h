@@ -32,7 +32,8 @@ CLENCH_INLINE void straighten(BoxOf<F>& box, const F& grow) {
   box.axis[2] = cross(box.axis[0], box.axis[1]);
   for (F& half : box.half) half = half + grow;
 }
-// relative to the size of a box: how far its corners lie outside after its axes are orthonormalized
+// distance of a box's corners outside of it after its axes are orthonormalized, relative to its
+// size
 inline constexpr double straightened = 0x1p-20;
 
 template <class F>

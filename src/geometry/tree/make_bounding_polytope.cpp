@@ -76,7 +76,7 @@ class PolytopeCutter {
     Vector3d at = Vector3d::Zero();
     std::array<int, 3> planes{};
     Vector3d out = Vector3d::Zero();  // away from the points, unit
-    double excess = 0;                // how far it lies beyond them
+    double excess = 0;                // its distance beyond them
 
     bool on(int plane) const { return std::ranges::find(planes, plane) != planes.end(); }
   };

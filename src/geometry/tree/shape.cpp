@@ -166,7 +166,7 @@ Bounds Shape::bounds_at(const Pose& X) const {
 }
 
 size_t Shape::bytes() const {
-  constexpr size_t tree_bytes = 100;  // of a triangle, in bundles that are not full
+  constexpr size_t tree_bytes = 100;  // per triangle, in bundles that are not full
   return sizeof *this + mesh_.vertices.capacity() * sizeof(Eigen::Vector3d) +
          mesh_.triangles.capacity() * (sizeof(Triangle) + tree_bytes) +
          part_extremes_.capacity() * sizeof(Extremes) + (facets_ ? facets_->bytes() : 0) +

@@ -56,7 +56,7 @@ class Shape {
   const Eigen::Vector3d& center() const { return center_; }
   double radius() const { return radius_; }
   const RoundPieces& rounds() const { return rounds_; }
-  /// Does the shape have round pieces that count there?
+  /// True if the shape has pieces that are treated as round for the purpose `where`.
   bool is_round(RoundIn where) const {
     return !rounds_.pieces.empty() && (where == RoundIn::motion || rounds_.in == RoundIn::all);
   }

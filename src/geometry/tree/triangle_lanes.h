@@ -71,8 +71,7 @@ struct Face {
       : corner(at), u(first), v{-back.x, -back.y, -back.z}, n(cross(u, v)) {
     across_u = cross(n, u), across_v = cross(v, n), nn = dot(n, n);
   }
-  // From x to a point of the face, approximately its foot. `inside` tells whether the foot lies
-  // inside.
+  // From x to a point of the face, approximately its foot. `inside`: does the foot lie inside?
   CLENCH_INLINE Triple<F> to_foot(const Triple<F>& x, typename F::Mask& inside) const {
     const Triple<F> d = x - corner;
     const F along_u = dot(d, across_v) / nn, along_v = dot(d, across_u) / nn, zero = F::all(0);
@@ -187,7 +186,7 @@ CLENCH_INLINE PointBounds<F> point_bounds(const TrianglesOf<F>& t,
   const Triple<F> a = from_p(0), b = from_p(1), c = from_p(2), ab = b - a, ac = c - a;
   const F a1 = dot(a, ab), b1 = dot(b, ab), c1 = dot(c, ab), a2 = dot(a, ac), b2 = dot(b, ac),
           c2 = dot(c, ac);
-  // whatever the rounding, these points lie on the triangle
+  // these points lie on the triangle for any rounding
   const auto share = [](const F& x, const F& y) {
     return min(max(x / (x - y), F::all(0)), F::all(1));
   };

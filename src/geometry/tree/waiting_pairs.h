@@ -28,7 +28,7 @@ class WaitingPairs {
   }
 
   /// Calls judge(a, b, lanes, pairs) for the collected pairs, if there are any, and removes them.
-  /// returns what judge does
+  /// returns  the result of judge
   template <class Judge>
   CLENCH_INLINE bool take(Judge&& judge) {
     const int count = count_;

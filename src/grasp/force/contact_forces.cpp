@@ -80,8 +80,8 @@ void read_margin(const ForceProgram& p, bool interior, ForceResult& out) {
   if (out.margin <= noise * most) out.margin = 0;
 }
 
-// Is the residual small relative to a load, in force and in torque over the longest arm, each
-// relative to the other at its end?
+// Is the residual small relative to a load? Forces are compared with torques by the moment that
+// they have at the longest arm.
 bool balances(double arm, const Vector6d& load, const Vector6d& left) {
   const auto force = [&](const Vector6d& w) { return w.head<3>().stableNorm(); };
   const auto torque = [&](const Vector6d& w) { return w.tail<3>().stableNorm(); };

@@ -28,7 +28,8 @@ Equilibrium equilibrium(const World& world, const Grasp& grasp, const Equilibriu
   const bool balanced =
       out.status == EquilibriumStatus::stable || out.status == EquilibriumStatus::unstable;
   if (!options.joints.springs_only || balanced) return out;
-  // springs brought to rest by closing balance only nearly, possibly not within the tolerance
+  // after closing, springs are at rest only within the tolerance of closing, so their balance may
+  // be inexact
   asked.joints->nearly_at_rest = true;
   return asked_once(world, grasp, asked);
 }

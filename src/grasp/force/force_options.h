@@ -22,7 +22,7 @@ struct JointDemand {
   /// effort limits of the hand's DOFs, >= 0, in both directions, instead of those of their drives
   /// [N m or N]
   std::optional<Eigen::VectorXd> limits;
-  /// motors exert any effort in the directions in which they exert any
+  /// efforts are unlimited in the directions in which motors can push
   bool unlimited = false;
   /// prescribed efforts of the hand's motors [N m or N]
   std::optional<Eigen::VectorXd> efforts = {};

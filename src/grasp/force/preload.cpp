@@ -30,7 +30,7 @@ VectorXd normals_at(const ForceProgram& p, int start) {
   return out;
 }
 
-// the program that holds all loads; none if some load is beyond elastic forces
+// the program that holds all loads; none if the elastic forces cannot balance one of them
 std::optional<LoadedProgram> preload_program(const World& world, const Grasp& grasp,
                                              const ForceOptions& asked,
                                              const std::vector<Vector6d>& loads_O, bool locked) {

@@ -163,7 +163,7 @@ double joint_deviation(MeasuredGrasp& g) {
 // in the object frame; no axis if two moments differ by less than the faceting of a round body
 // causes
 std::optional<Eigen::Vector3d> principal_axis(const Body& body) {
-  constexpr double alike = 1e-3;  // of the largest moment
+  constexpr double alike = 1e-3;  // relative to the largest moment
   const auto [moments, axes] = eigensystem(body.inertia_per_mass);
   const double below = moments[1] - moments[0], above = moments[2] - moments[1];
   if (!(std::max(below, above) > alike * moments[2])) return {};
@@ -208,11 +208,11 @@ double volume(MeasuredGrasp& g) { return g.space({}).volume(g.progress()); }
 
 const Measure all_measures[] = {
     {"epsilon",
-     "radius of the largest ball of wrenches that contact forces resist whose normal parts sum to "
-     "one; 0 unless force closure",
+     "radius of the largest ball of wrenches that contact forces resist, with normal forces that "
+     "sum to one; 0 without force closure",
      "0 to sqrt(1 + mu^2)", "1", true, "Ferrari and Canny (1992)",
      [](MeasuredGrasp& g) { return g.space().epsilon(g.progress()); }},
-    {"epsilon_linf", "the same with each normal part at most one", ">= 0", "1", true,
+    {"epsilon_linf", "the same, with each normal force at most one", ">= 0", "1", true,
      "Ferrari and Canny (1992)",
      [](MeasuredGrasp& g) {
        return g.space({.space = {.norm = WrenchNorm::linf}}).epsilon(g.progress());
@@ -221,22 +221,22 @@ const Measure all_measures[] = {
      "Ferrari and Canny (1992)",
      [](MeasuredGrasp& g) { return g.space({.edges = round_edges}).epsilon(g.progress()); }},
     {"epsilon_force",
-     "radius of the largest ball of forces that such contact forces reach, whatever their torque",
+     "radius of the largest ball of forces that such contact forces resist, with any torque",
      "0 to sqrt(1 + mu^2)", "1", true, "Mirtich and Canny (1994)",
      [](MeasuredGrasp& g) {
        return g.space({.space = {.coordinates = {0, 1, 2}}}).epsilon(g.progress());
      }},
     {"epsilon_torque",
-     "radius of the largest ball of torques, over rho, that such contact forces reach, whatever "
-     "their force",
+     "radius of the largest ball of torques, over rho, that such contact forces resist, with any "
+     "force",
      ">= 0", "1", true, "Mirtich and Canny (1994)",
      [](MeasuredGrasp& g) {
        return g.space({.space = {.coordinates = {3, 4, 5}}}).epsilon(g.progress());
      }},
-    {"volume", "of the hull of all unit wrenches in its six dimensions; 0 where it is flat", ">= 0",
+    {"volume", "of the hull of all unit wrenches in its six dimensions; 0 if it is flat", ">= 0",
      "1", true, "Miller and Allen (1999)", volume},
     {"min_singular_value",
-     "of the grasp map, torques over rho: how far the grasp is from losing a direction of wrenches",
+     "of the grasp map, torques over rho: distance from the loss of a direction of wrenches",
      ">= 0", "1", true, "Li and Sastry (1988)",
      [](MeasuredGrasp& g) { return g.singular_values()[5]; }},
     {"ellipsoid_volume",
@@ -244,14 +244,14 @@ const Measure all_measures[] = {
      "all contact forces of length one, over that of the unit ball",
      ">= 0", "1", true, "Li and Sastry (1988)",
      [](MeasuredGrasp& g) { return g.singular_values().prod(); }},
-    {"isotropy", "least over largest singular value of the grasp map, torques over rho", "0 to 1",
-     "1", true, "Kim, Oh, Yi and Suh (2001)",
+    {"isotropy", "smallest over largest singular value of the grasp map, torques over rho",
+     "0 to 1", "1", true, "Kim, Oh, Yi and Suh (2001)",
      [](MeasuredGrasp& g) { return ratio(g.singular_values()[5], g.singular_values()[0]); }},
     {"polygon_area",
      "of the convex polygon of the contact points, in the plane that fits them best", ">= 0", "m^2",
      true, "Mirtich and Canny (1994)", polygon_area},
     {"polygon_irregularity",
-     "how far the angles of that polygon are from those of a regular one; 1 with fewer than three "
+     "deviation of the angles of that polygon from those of a regular one; 1 with fewer than three "
      "corners",
      "0 to 1", "1", false, "Park and Starr (1992)", polygon_irregularity},
     {"centroid_distance", "of the mean of the contact points from the object's center of mass",
@@ -259,31 +259,31 @@ const Measure all_measures[] = {
      centroid_distance},
     {"orthogonality",
      "angle of the hand's approach to the object's principal axis or to the plane across it, "
-     "whichever is less: people grasp along or across; infinite of an object without such an axis",
+     "whichever is smaller: people grasp along or across; infinite for an object without such an "
+     "axis",
      "0 to pi/4", "rad", false, "Balasubramanian, Xu, Brook, Smith and Matsuoka (2012)",
      orthogonality},
     {"coplanarity",
      "of the contact normals: root mean square of the sines of their angles to the plane that fits "
      "them best; 0 in one plane",
-     "0 to sqrt(1/3)", "1", false, "least singular value of the normals", coplanarity},
+     "0 to sqrt(1/3)", "1", false, "smallest singular value of the normals", coplanarity},
     {"contact_position_tolerance",
-     "how far all contact points may be off at once, normals as they are, and force closure is "
-     "certain: epsilon rho / sqrt(1 + mu^2), of the largest mu",
+     "displacement of all contact points at once, with unchanged normals, up to which force "
+     "closure is certain: epsilon rho / sqrt(1 + mu^2), with the largest mu",
      ">= 0", "m", true, "after Roa and Suarez (2009), independent contact regions",
      contact_position_tolerance},
     {"gravity_effort",
-     "least sum of normal forces that holds the object's weight, by round cones; infinite where "
+     "smallest sum of normal forces that holds the object's weight, in round cones; infinite if "
      "none do",
      "> 0", "N", false, "Han, Trinkle and Li (2000)", gravity_effort},
     {"hand_min_singular_value",
-     "of the map from DOF velocities to the object's twist (v, rho omega): how far the hand is "
-     "from "
-     "losing a direction to move it; 0 with fewer than six DOFs",
+     "of the map from DOF velocities to the object's twist (v, rho omega): distance from the loss "
+     "of a direction of motion; 0 with fewer than six DOFs",
      ">= 0", "m", true, "Shimoga (1996)",
      [](MeasuredGrasp& g) { return g.hand_singular_values()[5]; }},
     {"manipulability", "product of the singular values of that map", ">= 0", "m^6", true,
      "Yoshikawa (1985)", [](MeasuredGrasp& g) { return g.hand_singular_values().prod(); }},
-    {"hand_isotropy", "least over largest singular value of that map", "0 to 1", "1", true,
+    {"hand_isotropy", "smallest over largest singular value of that map", "0 to 1", "1", true,
      "Salisbury and Craig (1982)",
      [](MeasuredGrasp& g) {
        return ratio(g.hand_singular_values()[5], g.hand_singular_values()[0]);
@@ -293,12 +293,12 @@ const Measure all_measures[] = {
     {"joint_deviation",
      "mean over the DOFs of the squared distance from the middle of the range, over half the range",
      "0 to 1", "1", false, "Liegeois (1977)", joint_deviation},
-    {"clearance", "of the hand from obstacles and other objects; infinite where there are none",
+    {"clearance", "of the hand from obstacles and other objects; infinite if there are none",
      ">= 0", "m", true, "distance of meshes",
      [](MeasuredGrasp& g) { return clearance(g.world(), g.grasp().hand, g.grasp().object); }},
     {"penetration",
      "largest distance from the object's surface of a point of the hand inside the object, up to 1 "
-     "um + 0.1 %; infinite where two open meshes cross",
+     "um + 0.1 %; infinite if two open meshes intersect",
      ">= 0", "m", false, "branch and bound over meshes",
      [](MeasuredGrasp& g) {
        return penetration(g.world(), g.grasp().hand, g.grasp().object, g.progress());
@@ -309,8 +309,8 @@ const Measure all_measures[] = {
      ">= 0", "N", true, "Bicchi (1995); Pozzi, Malvezzi and Prattichizzo (2017)",
      [](MeasuredGrasp& g) { return g.robustness().radius; }},
     {"grasp_robustness",
-     "the same, the largest over all choices of contacts that slip or let go; of many contacts the "
-     "largest that 400 steps of the search find",
+     "the same, the largest over all choices of contacts that slip or separate; with many "
+     "contacts, the largest that 400 steps of a search find",
      ">= 0", "N", true, "Pozzi, Malvezzi and Prattichizzo (2017)",
      [](MeasuredGrasp& g) {
        return grasp_robustness(g.robustness_problem(), 400, g.progress()).radius;

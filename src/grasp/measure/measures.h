@@ -16,7 +16,7 @@ class MeasuredGrasp {
  public:
   MeasuredGrasp(const MeasuredGrasp&) = delete;
   MeasuredGrasp& operator=(const MeasuredGrasp&) = delete;
-  /// Wrench spaces are those that the grasp keeps.
+  /// Uses the wrench spaces that the grasp stores.
   MeasuredGrasp(const World& world, const Grasp& grasp, const Progress& progress = {});
 
   /// throws  Error as check_unmoved does

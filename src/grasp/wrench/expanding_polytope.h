@@ -65,7 +65,7 @@ struct Facets {
 };
 
 struct FacetsOptions {
-  double tolerance = 1e-12;    ///< tolerance: how far the set may extend beyond a facet
+  double tolerance = 1e-12;    ///< largest extent of the set beyond a facet
   int max_facets = 2'000'000;  ///< limit, beyond which the result is too_many
   Progress progress = {};
 };

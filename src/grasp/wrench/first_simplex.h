@@ -39,7 +39,8 @@ void find_planes(Simplex<D>& simplex, const Basis<D>& basis) {
     for (int i = 0; i <= j; ++i) edge[j][i] = dot<D>(basis.q[i], v);
   }
   for (int k = 0; k <= D; ++k) {
-    // along all edges equally, or along all but one not at all
+    // the normal of facet 0 has equal components along all edges; that of facet k is orthogonal to
+    // all edges but one
     double along[D], normal[D] = {};
     for (int i = 0; i < D; ++i) {
       along[i] = k == 0 ? 1 : i == k - 1 ? -1 : 0;

@@ -149,8 +149,8 @@ void apply_grasp(World& world, const GraspSpec& grasp) {
   const auto object = world.find_body(grasp.object_name);
   const auto missing = [&](const std::string& name, const char* what) {
     if (name.empty())
-      fail("grasp of {} by {}: it does not name its {}; one has to be given",
-           in_quotes(grasp.object_name), in_quotes(grasp.hand_name), what);
+      fail("grasp of {} by {}: it does not name its {}; give one", in_quotes(grasp.object_name),
+           in_quotes(grasp.hand_name), what);
     fail("grasp of {} by {}: there is no such {} in this world", grasp.object_name, grasp.hand_name,
          what);
   };
@@ -167,15 +167,15 @@ void apply_grasp(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> 
                  const GraspDofOptions& options) {
   const Robot& robot = world.robot(hand);
   const Place place("", 0, fmt::format("grasp of {} by {}", world.body(object).name, robot.name));
-  if (!grasp.X_OH) fail("{}: it was put together by hand and says not how the hand stands", place);
+  if (!grasp.X_OH) fail("{}: it contains no pose of the hand", place);
   const GraspPosture posture = grasp_posture(world, hand, grasp, place, options);
   const Pose before = world.pose(robot.base);
   if (robot.mounting) {
     const Pose off = grasp.X_OH->inverse() * hand_in_object(world, hand, object);
     if (has_moved(off))
       fail(
-          "{}: robot '{}' carries the hand, {:.3g} m and {:.3g} rad from where it stood about the "
-          "object: move that one",
+          "{}: robot '{}' carries the hand, {:.3g} m and {:.3g} rad from its pose in the grasp: "
+          "move that robot",
           place, world.robot(robot.mounting->parent).name, off.position.norm(), off.angle());
   } else {
     world.set_pose(hand, world.pose(object) * *grasp.X_OH);

@@ -30,12 +30,12 @@ bool stands_as_grasped(const World& world, const GraspSpec& grasp, Id<Robot> han
 /// throws  Error if they do not
 void check_unmoved(const World& world, const Grasp& grasp);
 
-/// Puts hand and joints into the grasp's pose relative to the object, wherever that is now. Nothing
-/// else moves; the hand may collide. DOFs are matched by name if the grasp names them; DOFs that it
-/// does not name keep their values.
+/// Puts hand and joints into the grasp's pose relative to the object at the object's present pose.
+/// Nothing else moves; the hand may collide. DOFs are matched by name if the grasp names them; DOFs
+/// that it does not name keep their values.
 /// throws Error if the world has no such hand or object, the hand has other DOFs or joints, a value
-/// lies outside its limits, the grasp was assembled by hand, or another robot carries the hand and
-/// holds it elsewhere
+/// lies outside its limits, the grasp has no pose, or another robot carries the hand and holds it
+/// elsewhere
 void apply_grasp(World& world, const GraspSpec& grasp);
 /// The same with an explicit hand and object.
 void apply_grasp(World& world, const GraspSpec& grasp, Id<Robot> hand, Id<Body> object);

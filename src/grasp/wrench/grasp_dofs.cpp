@@ -185,7 +185,7 @@ class PostureReader {
       if (differ(one.value, by_dof))
         options_.diagnostics.warn(
             place_,
-            "joint {} moves with DOF {}, which puts it at {:.6g}, not at {:.6g}; the DOF counts",
+            "joint {} moves with DOF {}, which puts it at {:.6g}, not at {:.6g}; the DOF is used",
             in_quotes(joint_name(one.joint)), in_quotes(dof_name(robot_, one.dof)), by_dof,
             one.value);
     }
@@ -203,10 +203,8 @@ void check_rigid_joints(const Robot& robot, const Eigen::VectorXd& q,
     const Joint& joint = robot.joints[j];
     const double by_dof = joint.ratio * q[joint.dof];
     if (robot.dofs[joint.dof].kind == DofKind::rigid && differ(joints[j], by_dof))
-      fail(
-          "{}: joint {} stands at {}, and its DOF puts it at {}; without 'joints' the DOFs tell "
-          "all",
-          place, j + 1, joints[j], by_dof);
+      fail("{}: joint {} is at {}, but its DOF puts it at {}; omit 'joints' to use the DOFs alone",
+           place, j + 1, joints[j], by_dof);
   }
 }
 

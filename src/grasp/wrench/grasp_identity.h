@@ -8,13 +8,13 @@
 
 namespace clench {
 
-/// Notes fingerprints of hand, object and settings with a grasp of that world. The version is
-/// noted by the program.
+/// Stores fingerprints of hand, object and settings in a grasp of that world. The program sets the
+/// version.
 void identify(const World& world, Grasp& grasp, ShapeFingerprints& shapes);
 
-/// Compares the hand's mechanism and the object's surface with those that the grasp notes.
-/// returns  how they differ, as "grasp of flask by dlr: ..."; empty when they do not, or when the
-///          grasp does not note them
+/// Compares the hand's mechanism and the object's surface with those stored in the grasp.
+/// returns  their difference, as "grasp of flask by dlr: ..."; empty if there is none, or if the
+///          grasp does not store them
 std::string identity_difference(const World& world, const GraspSpec& grasp, Id<Robot> hand,
                                 Id<Body> object, ShapeFingerprints& shapes);
 

@@ -24,7 +24,7 @@ std::array<int, 3> free_coordinates(const WrenchSpace& space, const ProjectionOp
       fail("wrench space: project: coordinates must be 0 to 5, got {}", coordinate);
     const auto place = std::find(left.begin(), left.end(), coordinate);
     if (place == left.end())
-      fail("wrench space: project: {} is named twice, or does not count in this space",
+      fail("wrench space: project: {} is named twice, or is no coordinate of this space",
            coordinate_names[coordinate]);
     left.erase(place);
   };

@@ -16,7 +16,7 @@ struct ProjectionOptions {
   std::vector<std::pair<int, double>> fixed =
       {};                           ///< coordinates with prescribed values: a section of the space
   std::vector<int> projected = {};  ///< coordinates that are projected out
-  /// how far the space may extend beyond the mesh, as a fraction of its size, if a contact has a
+  /// largest extent of the space beyond the mesh, as a fraction of its size, if a contact has a
   /// round cone
   double tolerance = 1e-3;
   Progress progress = {};

@@ -17,9 +17,9 @@ namespace {
 using CellMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 using CellVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 
-// Points count as rising above a rotating plane only if by more than this times the sum of their
-// coordinates on the cell: rounding moves points that lie in the axis of rotation, as many do if
-// summands have directions in common.
+// A point counts as rising above a rotating plane only if it rises by more than this times the sum
+// of its coordinates on the cell: points in the axis of rotation move by rounding, and many points
+// lie there if summands have directions in common.
 constexpr double rounding_rise = 1e-13;
 constexpr double repeated = 1e-9;  // columns nearer than this are merged
 constexpr double flat = 1e-10;     // a sum this much thinner than wide has no volume
@@ -94,13 +94,14 @@ struct NextPoint {
   double way = std::numeric_limits<double>::infinity();
 };
 
-// The first point to reach the height of its summand's corner over a rotating plane.
+// A rotating plane, and the points above it.
 struct TurningPlane {
   Eigen::RowVectorXd level;  // of all points above the plane
   Eigen::RowVectorXd rise;   // their change as it rotates
   Eigen::RowVectorXd least;  // smallest rise that is not rounding
 };
 
+// The first point whose height over the plane reaches that of its summand's corner.
 NextPoint next_point(const LiftedPoints& points, const Cell& cell, const std::vector<int>& corners,
                      const TurningPlane& plane) {
   const auto& [level, rise, least] = plane;
@@ -173,7 +174,7 @@ double invert(CellMatrix& m) {
       m.row(i) -= factor * m.row(k), out.row(i) -= factor * out.row(k);
     }
   }
-  // products of the rows, to the last digit
+  // a step of Newton's method removes the rounding errors of the elimination
   m = out * (2 * CellMatrix::Identity(d, d) - original * out);
   return std::abs(determinant);
 }

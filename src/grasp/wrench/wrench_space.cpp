@@ -75,7 +75,7 @@ void check_coordinates(const std::vector<int>& coordinates) {
     if (coordinates[i] < 0 || coordinates[i] > 5)
       fail("wrench space: coordinates must be 0 to 5, got {}", coordinates[i]);
     if (std::count(coordinates.begin(), coordinates.end(), coordinates[i]) > 1)
-      fail("wrench space: coordinate {} is there twice", coordinates[i]);
+      fail("wrench space: coordinate {} is given twice", coordinates[i]);
   }
 }
 
@@ -315,7 +315,8 @@ const WrenchSpace::Bracket& WrenchSpace::final_bracket(const Progress& progress)
 bool WrenchSpace::is_force_closure(const Progress& progress) const {
   if (closure_) return *closure_;
   if (contacts_.empty()) return closure_.emplace(false);
-  // each normal force at most one resists the same directions as their sum at most one
+  // normal forces of at most one each resist the same directions as normal forces that sum to at
+  // most one
   const bool l1 = options_.norm == WrenchNorm::l1;
   const double inside = 2 * prepared().zero;
   size_t wrenches = 0;

@@ -65,8 +65,8 @@ GeometryFormat read_format(const XmlElement& file, const ReadOptions& options) {
   if (format == GeometryFormat::none) return said;
   if (said != format)
     options.diagnostics.warn(file.place().of("geometryFile"),
-                             "type {} is not that of {}; its ending counts", in_quotes(*type),
-                             in_quotes(file.text()));
+                             "type {} does not fit {}; the ending of the file is used",
+                             in_quotes(*type), in_quotes(file.text()));
   return format;
 }
 
@@ -192,8 +192,9 @@ void check_body_root(const XmlFile& file) {
   if (std::ranges::none_of(children, [](const XmlElement& e) {
         return std::ranges::count(known_elements.once, e.name());
       }))
-    file.root().fail("expected a body with geometryFile, mass or the like, got <{}> without any",
-                     excerpt(file.root().name()));
+    file.root().fail(
+        "expected a body with elements such as geometryFile or mass, got <{}> without any",
+        excerpt(file.root().name()));
 }
 
 BodySpec read_body_xml(const fs::path& path, FileCache& cache) {

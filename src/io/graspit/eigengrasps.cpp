@@ -56,7 +56,7 @@ bool begins_block(std::string_view keyword) {
   return keyword == "eg" || keyword == "origin" || keyword == "norm";
 }
 
-/// Number of values with which all value lines begin.
+/// Number of values that all lines of vectors have at least.
 int given_dofs(const std::string& text) {
   LineReader lines("", text);
   std::optional<int> least;
@@ -89,12 +89,12 @@ class EgrReader {
 
   const ReadOptions& options_;
   Repairs repairs_;
-  int given_;  // number of values with which all blocks begin
+  int given_;  // number of values that all vectors have at least
   LineReader lines_;
   EigengraspSet set_;
   Places places_;
   int junk_lines_ = 0;
-  Diagnostic junk_;  // the first one, as reported
+  Diagnostic junk_;  // first of these lines; it is reported with their number
 };
 
 EigengraspSet EgrReader::read() {
@@ -318,7 +318,7 @@ void write_eigengrasps(const EigengraspSet& set, const fs::path& path,
       set.grasps, [](const EigengraspSpec& grasp) { return grasp.limits.has_value(); });
   if (limited && lower_case(path.extension().string()) == ".egr")
     diagnostics.warn(Place(path.filename().string()),
-                     "the text format has no place for limits of amplitudes; .xml has");
+                     "the text format cannot store limits of amplitudes; .xml can");
   write_file(path, text);
 }
 

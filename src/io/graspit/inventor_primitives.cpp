@@ -75,7 +75,7 @@ Primitive placed(const Solid& shape, const InventorMatrix& X, const std::string&
     fail("{}: expected a finite scale other than 0", name);
   axes = axes * scale.cwiseInverse().asDiagonal();
   if ((axes.transpose() * axes - Matrix3d::Identity()).cwiseAbs().maxCoeff() > digits)
-    fail("{}: it is skewed, and is none any more", name);
+    fail("{}: it is skewed, and thus no primitive", name);
   if (axes.determinant() < 0) axes.col(0) *= -1;  // all primitives are mirror-symmetric
   const double across = std::max(scale.x(), scale.z());
   const bool oval = ball ? scale.maxCoeff() - scale.minCoeff() > digits * scale.maxCoeff()

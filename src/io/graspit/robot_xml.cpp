@@ -107,7 +107,7 @@ RobotSpec XmlRobotReader::read() {
 void XmlRobotReader::read_type() {
   robot_.class_name = root_.attribute("type").value_or("");
   if (robot_.class_name.empty()) {
-    diagnostics().note(root_.place().of("robot"), "no type; it is taken for a Hand");
+    diagnostics().note(root_.place().of("robot"), "no type; Hand is assumed");
     robot_.class_name = "Hand";
   } else {
     check_class(robot_.class_name, root_.place(), diagnostics());
@@ -164,7 +164,7 @@ void XmlRobotReader::read_dof(const XmlElement& element) {
   const Place place = element.place().of(subject);
   const std::string kind = element.attribute("type").value_or("");
   if (kind.empty())
-    repairs_.add("kind", place, "no type; it is taken for r");
+    repairs_.add("kind", place, "no type; r is assumed");
   else
     dof.kind = dof_kind(kind, place.text());
   const auto number = [&](const char* name) {

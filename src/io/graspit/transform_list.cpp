@@ -35,8 +35,8 @@ Pose read_full_transform(const Line& line, std::string_view text, const Diagnost
               x[3]);
   if (std::abs(wxyz.stableNorm() - 1) > nearly_unit)
     diagnostics.repaired(line.place(),
-                         "the quaternion ({} {} {} {}) is not of length 1; it is scaled to it",
-                         x[0], x[1], x[2], x[3]);
+                         "the quaternion ({} {} {} {}) is not of length 1; it is normalized", x[0],
+                         x[1], x[2], x[3]);
   return {*q, Eigen::Vector3d(x[4], x[5], x[6]) * units::millimeter};
 }
 

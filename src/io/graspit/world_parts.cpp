@@ -117,9 +117,11 @@ void find_connections(WorldSpec& world, const std::vector<ConnectionPlace>& plac
 int chain_of(const WorldSpec& world, const Connection& connection) {
   const RobotSpec& parent = world.robots[connection.parent].robot;
   if (const auto chain = chain_ending_at(parent, connection.link)) return *chain;
-  fail("{}: '{}' is carried by '{}', which ends no chain; the format knows no other links",
-       excerpt(world.source), excerpt(world.robots[connection.child].robot.name),
-       excerpt(parent.links[connection.link].body.name));
+  fail(
+      "{}: '{}' is carried by '{}', which is not the last link of a chain; the format has no other "
+      "connections",
+      excerpt(world.source), excerpt(world.robots[connection.child].robot.name),
+      excerpt(parent.links[connection.link].body.name));
 }
 
 std::optional<Eigen::Quaterniond> camera_orientation(const Eigen::Vector4d& xyzw,

@@ -58,7 +58,7 @@ WorldSpec XmlWorldReader::read() {
 Pose XmlWorldReader::pose(const XmlElement& element) const {
   if (!element.child("transform"))
     diagnostics().note(element.place().of(element.name()),
-                       "no <transform>; it stands at the origin");
+                       "no <transform>; it is placed at the origin");
   const Pose X = read_transform_of(element, cache_.diagnostics());
   check_place(X, fmt::format("{}: {}", element.place(), element.name()));
   return X;

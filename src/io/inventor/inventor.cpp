@@ -97,8 +97,8 @@ Geometry read_inventor(const std::filesystem::path& path, const std::string& tex
   tell_inventor_warnings(graph, walk, options);
   for (const auto& named : walk.units)
     options.diagnostics.note(Place(file),
-                             "Units {} scales what follows it by its length beside METERS, or "
-                             "beside that of the Units before it",
+                             "Units {} scales the nodes after it by its length relative to METERS, "
+                             "or to the Units before it",
                              named);
   return builder.finish(walk.colors_given || own_colors, file, options);
 }

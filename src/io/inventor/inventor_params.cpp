@@ -62,8 +62,8 @@ void read_inventor_params(const std::string& text, const std::string& file,
     const std::string_view key = line.word(0).substr(1);
     if (!marked) {
       if (std::ranges::count(keys, key))
-        options.diagnostics.warn(line.place(), "#{} is a comment, for it does not begin its line",
-                                 key);
+        options.diagnostics.warn(line.place(),
+                                 "#{} is a comment, because it does not begin its line", key);
       continue;
     }
     if (key == "material") {

@@ -317,7 +317,7 @@ template <class Read>
 auto InventorParser::read_part(const Part& part, Instance* scope, Read read) {
   budget_.proto_bytes += part.end - part.start;
   if (budget_.proto_bytes > max_proto_bytes)
-    tokens_.refuse(tokens_.rest().line, "expected PROTOs that stand for at most {} bytes of text",
+    tokens_.refuse(tokens_.rest().line, "expected PROTOs that expand to at most {} bytes of text",
                    max_proto_bytes);
   const Part here = tokens_.rest();
   tokens_.read_only(part);

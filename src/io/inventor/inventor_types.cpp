@@ -76,7 +76,8 @@ constexpr TypeText read_types[] = {
     {K::binding, "MaterialBinding",
      "value:w(OVERALL|PER_PART|PER_PART_INDEXED|PER_FACE|PER_FACE_INDEXED|PER_VERTEX|"
      "PER_VERTEX_INDEXED|DEFAULT|NONE)=OVERALL"},
-    // hints: of Inventor 1, instead of the next three; the first four words set none of them
+    // Inventor 1 has the field `hints` instead of the next three; its first four words have no effect
+    // on those
     {K::hints, "ShapeHints",
      "hints:W(NONE|SURFACE|UNORDERED|CONCAVE|SOLID|ORDERED|CONVEX)= "
      "vertexOrdering:w(UNKNOWN_ORDERING|CLOCKWISE|COUNTERCLOCKWISE)=UNKNOWN_ORDERING shapeType "

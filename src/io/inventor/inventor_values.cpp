@@ -39,7 +39,7 @@ std::string repair_complexity(float& x, std::string_view) {
 
 std::string factor_fault(float x, std::string_view field) {
   const bool factor = field.starts_with("scale") && field != "scaleOrientation";
-  return factor && x == 0 ? "a factor of 0 makes flat what it scales" : "";
+  return factor && x == 0 ? "a factor of 0 flattens everything that it scales" : "";
 }
 
 std::string count_fault(int32_t count, std::string_view) {
@@ -69,7 +69,7 @@ void repair_values(InventorNode& node, InventorGraph& graph) {
         const auto count = static_cast<int32_t>(node.children.size());
         return choice >= -3 && choice < count
                    ? ""
-                   : fmt::format("{} is none of {} children; none is used", choice, count);
+                   : fmt::format("{} is not one of {} children; none is used", choice, count);
       });
     default:
       return;

@@ -139,8 +139,7 @@ void ColladaReader::read_node(const XmlElement& node, const Affine3d& X_parent, 
 }
 
 void ColladaReader::read_controller(const XmlElement& instance, const Affine3d& X) {
-  work_.warnings.insert(
-      "skins and morphs are not used: their meshes keep the shape they were drawn in");
+  work_.warnings.insert("skins and morphs are not used: their meshes keep their shape at rest");
   const XmlElement controller = ids_.find(instance, "url");
   const XmlElement skin = controller.child("skin");
   if (!skin) return;
@@ -198,7 +197,7 @@ bool ColladaReader::read() {
     for (const XmlElement& node : shown.children("node")) read_node(node, Affine3d::Identity(), 0);
     return colors_given_;
   }
-  work_.warnings.insert("it has no scene; its geometries are taken as they stand");
+  work_.warnings.insert("it has no scene; its geometries are used without transforms");
   for (const XmlElement& library : root.children("library_geometries"))
     for (const XmlElement& geometry : library.children("geometry"))
       read_geometry(geometry, {}, Affine3d::Identity());

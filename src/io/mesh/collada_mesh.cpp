@@ -58,7 +58,7 @@ class MeshReader {
 void spend(const XmlElement& e, size_t count, ColladaWork& work) {
   work.left -= static_cast<long>(count);
   if (work.left < 0)
-    e.fail("{}: expected less to read, meshes that are used several times counted each time",
+    e.fail("{}: expected less data, with meshes that are used several times counted each time",
            e.name());
 }
 
@@ -72,7 +72,7 @@ std::vector<double> read_numbers(const XmlElement& e, ColladaWork& work) {
 void check_count(const XmlElement& e, size_t got, ColladaWork& work) {
   if (!e.attribute("count") || static_cast<size_t>(e.integer_attribute("count", 0)) == got) return;
   work.warnings.insert(
-      fmt::format("counts of <{}> that differ from what stands there are not used", e.name()));
+      fmt::format("counts of <{}> that differ from its contents are not used", e.name()));
 }
 
 /// Rows of at most three numbers with these names, as described by a <source> and its accessor.
@@ -134,7 +134,7 @@ Points MeshReader::points(const XmlElement& input) {
 std::vector<FaceCorner> MeshReader::corners(const XmlElement& p) {
   const auto numbers = read_numbers(p, work_);
   if (numbers.size() % static_cast<size_t>(stride_) != 0)
-    p.fail("p: expected {} numbers a corner, got {} in all", stride_, numbers.size());
+    p.fail("p: expected {} numbers per corner, got {} in total", stride_, numbers.size());
   const auto number = [&](size_t i, size_t count, const char* what) {
     const double v = numbers[i];
     if (!(v >= 0 && v < static_cast<double>(count)) || v != std::floor(v))

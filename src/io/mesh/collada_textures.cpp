@@ -91,7 +91,7 @@ ColladaLook ColladaTextures::look(const XmlElement& texture, const XmlElement& p
   ColladaLook out;
   if (!found || found.name() != "image") {
     work_.warnings.insert(
-        fmt::format("a texture {} that leads to no image is not used", in_quotes(name)));
+        fmt::format("a texture {} that refers to no image is not used", in_quotes(name)));
     return out;
   }
   out.image = image(found);

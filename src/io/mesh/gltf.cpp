@@ -118,7 +118,7 @@ void GltfReader::read_node(int i, const std::string& named_by, const Affine3d& X
                    node.name);
   const Affine3d X = X_parent * placement(node);
   if (document_.member(node, "skin"))
-    warnings_.insert("its skins are not used: skinned meshes keep the shape they were drawn in");
+    warnings_.insert("its skins are not used: skinned meshes keep their shape at rest");
   if (document_.member(node, "mesh"))
     read_mesh(document_.item("meshes", document_.expected_integer(node, "mesh"), node.name), X);
   const auto children = document_.items(document_.member(node, "children"));
@@ -235,7 +235,7 @@ GltfReader::ImagePoints GltfReader::image_points(const GltfValue& primitive, con
   const auto uv = document_.read_floats(document_.expected_integer(attributes, key.c_str()), 2,
                                         attributes.name + "." + key);
   if (uv.size() != 2 * static_cast<size_t>(count)) {
-    warnings_.insert("texture coordinates that are not as many as positions are not used");
+    warnings_.insert("texture coordinates that differ in number from the positions are not used");
     return {};
   }
   ImagePoints out;
@@ -305,7 +305,7 @@ void GltfReader::add(const std::vector<int>& corners, int mode, const Affine3d& 
     builder_.add_face(t, color, look.transparency, &texture);
   }
   if (mode == 4 && count % 3 != 0)
-    warnings_.insert("what is left of its indices after the last whole triangle is not used");
+    warnings_.insert("its indices after the last complete triangle are not used");
 }
 
 bool GltfReader::read() {

@@ -32,7 +32,7 @@ static void set_unit(GeometryBuilder& builder, const std::string& file,
     report.unit = guess_mesh_unit(size.maxCoeff());
     options.diagnostics.note(Place(file),
                              "it names no unit; its size, {:.4g} x {:.4g} x {:.4g}, is taken for "
-                             "{} (the option unit says otherwise)",
+                             "{} (the option unit overrides this)",
                              size.x(), size.y(), size.z(), unit_name(report.unit));
   }
 }

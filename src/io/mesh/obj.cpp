@@ -174,7 +174,7 @@ void ObjReader::read_other(std::string_view keyword) {
   else if (free_form.contains(keyword))
     warn_once("free form", "free-form curves and surfaces are not used");
   else
-    warn_once(std::string(keyword), in_quotes(keyword) + " is not known, and its line not used");
+    warn_once(std::string(keyword), in_quotes(keyword) + " is unknown, and its line is not used");
 }
 
 void ObjReader::read_materials(const std::string& names) {
@@ -183,9 +183,11 @@ void ObjReader::read_materials(const std::string& names) {
   for (const auto word : split_words(names, "", max_material_files)) candidates.emplace_back(word);
   material_files_ += candidates.size();
   if (material_files_ > max_material_files)
-    return warn_once("mtllib", fmt::format("expected at most {} files of materials; this one and "
-                                           "what follows are not read",
-                                           max_material_files));
+    return warn_once(
+        "mtllib",
+        fmt::format(
+            "expected at most {} files of materials; this one and further ones are not read",
+            max_material_files));
   std::string missing;
   bool found = false;
   for (const auto& name : candidates) {
@@ -199,8 +201,7 @@ void ObjReader::read_materials(const std::string& names) {
     }
     if (found && name == names) break;
   }
-  if (!found)
-    input_.diagnostics().note(words_.place(), "{}; the body has no colors of its own", missing);
+  if (!found) input_.diagnostics().note(words_.place(), "{}; the body has one color", missing);
 }
 
 // texture coordinates of a face in the image of its material; empty: it has none

@@ -63,7 +63,7 @@ void OffReader::read_header() {
   vertices_ = read_count(word, "number of vertices");
   faces_ = read_count(words_.word_anywhere(), "number of faces");
   words_.word();  // the number of edges is unused, and often wrong or missing
-  if (words_.words_left() > 0) warn_once("what follows the counts is not used");
+  if (words_.words_left() > 0) warn_once("text after the counts is not used");
 }
 
 int OffReader::read_count(std::string_view word, const char* what) {
@@ -108,7 +108,7 @@ void OffReader::read_vertices() {
     if (vertex_colors_)
       colors_.push_back(read_color(3));  // opacity may follow
     else if (!texture_ && words_.words_left() > 0)
-      warn_once("what follows a vertex's numbers is not used");
+      warn_once("text after the numbers of a vertex is not used");
   }
 }
 
@@ -137,7 +137,7 @@ void OffReader::read_faces() {
       color = read_color(rest, &transparency);
       face_colors_ = true;
     } else if (rest > 0) {
-      warn_once("what follows a face's vertices is no color, and not used");
+      warn_once("text after the vertices of a face is no color, and is not used");
     }
     if (count < 3) warn_once("a face of fewer than three vertices is not used");
     errors_at(words_, [&] { builder_.add_face(corners, color, transparency); });
@@ -148,7 +148,7 @@ bool OffReader::read() {
   read_header();
   read_vertices();
   read_faces();
-  if (words_.next_line()) warn_once("what follows the last face is not used");
+  if (words_.next_line()) warn_once("text after the last face is not used");
   return face_colors_ || vertex_colors_;
 }
 

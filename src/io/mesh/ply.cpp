@@ -64,7 +64,7 @@ void Values::begin(const std::string& name, int i, int count) {
 
 void Values::end() {
   if (!ascii_ || first_surplus_ || words_.words_left() == 0) return;
-  first_surplus_ = {place(), fmt::format("what follows the values of a {} is not used", *element_)};
+  first_surplus_ = {place(), fmt::format("text after the values of a {} is not used", *element_)};
 }
 
 double Values::next(NumberType type) {
@@ -94,7 +94,7 @@ void Values::skip(NumberType type, int count) {
 std::optional<Diagnostic> Values::surplus() {
   if (first_surplus_) return first_surplus_;
   if (ascii_ && words_.next_line())
-    return Diagnostic(place(), "what follows the last element is not used");
+    return Diagnostic(place(), "text after the last element is not used");
   if (!ascii_ && bytes_.left() > 0)
     return Diagnostic(Place(words_.file()),
                       fmt::format("{} bytes after the last element are not used", bytes_.left()));

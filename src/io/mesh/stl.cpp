@@ -81,9 +81,9 @@ void read_loop(WordReader& words, GeometryBuilder& builder) {
   for (int count = 0;; ++count) {
     const std::string word = expect(words, "vertex or endloop");
     if (word == "endloop" && count == 3) break;
-    if (word == "endloop") words.fail("expected three vertices a facet, got {}", count);
+    if (word == "endloop") words.fail("expected three vertices per facet, got {}", count);
     if (word != "vertex") words.fail("expected 'vertex' or 'endloop', got {}", in_quotes(word));
-    if (count == 3) words.fail("expected three vertices a facet, got more");
+    if (count == 3) words.fail("expected three vertices per facet, got more");
     for (double& x : corners[count]) {
       const std::string text = next_word(words);
       const auto value = parse_number(text);

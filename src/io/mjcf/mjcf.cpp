@@ -34,7 +34,7 @@ MjcfTree read_one_robot(MjcfModel& model, FileCache& cache, bool& fixed_base) {
   std::erase_if(bodies, [&](const TopBody& body) {
     if (body.node == kept || !body.free) return false;
     cache.diagnostics().warn(body.node->element.place(),
-                             "body '{}' moves freely beside the robot; it is not read",
+                             "body '{}' moves separately from the robot; it is not read",
                              excerpt(body.node->element.attribute("name").value_or("")));
     return true;
   });
@@ -84,8 +84,8 @@ RobotSpec read_robot_mjcf(const fs::path& path, const std::string& body, FileCac
     }
     names.push_back(tree->name);
   }
-  fail("{}: body: expected one that a tree of joints begins with, got {}{}",
-       path.filename().string(), in_quotes(body), instead_of(body, names));
+  fail("{}: body: expected the root of a tree of joints, got {}{}", path.filename().string(),
+       in_quotes(body), instead_of(body, names));
 }
 
 }  // namespace clench

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "clench/base/text.h"
-#include "clench/io/mjcf/mjcf_couplings.h"
-#include "clench/io/mjcf/mjcf_expand.h"
-#include "clench/io/mjcf/mjcf_spring_damper.h"
-#include "clench/io/mjcf/solver_settings.h"
+#include "clench/io/mjcf/document/mjcf_expand.h"
+#include "clench/io/mjcf/document/solver_settings.h"
+#include "clench/io/mjcf/joints/mjcf_couplings.h"
+#include "clench/io/mjcf/joints/mjcf_spring_damper.h"
 #include "clench/io/tree/tree_robot.h"
 
 namespace clench {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "clench/io/mjcf/mjcf_contacts.h"
-#include "clench/io/mjcf/mjcf_couplings.h"
-#include "clench/io/mjcf/mjcf_materials.h"
-#include "clench/io/mjcf/mjcf_tree.h"
+#include "clench/io/mjcf/bodies/mjcf_contacts.h"
+#include "clench/io/mjcf/bodies/mjcf_tree.h"
+#include "clench/io/mjcf/geoms/mjcf_materials.h"
+#include "clench/io/mjcf/joints/mjcf_couplings.h"
 
 namespace clench {
 

@@ -6,12 +6,12 @@
 
 #include "clench/base/text.h"
 #include "clench/base/watched.h"
+#include "clench/io/mjcf/bodies/mjcf_tree_weight.h"
+#include "clench/io/mjcf/document/mjcf_options.h"
+#include "clench/io/mjcf/document/solver_settings.h"
+#include "clench/io/mjcf/geoms/mjcf_materials.h"
 #include "clench/io/mjcf/mjcf.h"
 #include "clench/io/mjcf/mjcf_keyframes.h"
-#include "clench/io/mjcf/mjcf_materials.h"
-#include "clench/io/mjcf/mjcf_options.h"
-#include "clench/io/mjcf/mjcf_tree_weight.h"
-#include "clench/io/mjcf/solver_settings.h"
 #include "clench/io/text/repair_names.h"
 #include "clench/spec/plausibility.h"
 
@@ -279,7 +279,7 @@ const std::vector<PartRef>& SceneReader::parts_of(const XmlValues& exclude, cons
   if (name == "world") return of_world_;
   if (const auto found = by_name_.find(name); found != by_name_.end()) return found->second;
   cache_.diagnostics().warn(exclude.element().place().of("exclude"),
-                            "no body {} is read; this is not used", in_quotes(name));
+                            "no body {} was read; the exclusion is ignored", in_quotes(name));
   return none;
 }
 
@@ -320,10 +320,10 @@ void SceneReader::set_bits() {
   for (const auto& [i, j] : apart.listed)
     world_.always_meet.push_back({parts_[i].ref, parts_[j].ref});
   if (apart.by_bits > 0)
-    cache_.diagnostics().note(Place(model_.document().file()),
-                              "{} pair{} of bodies never collide{}, as contype and conaffinity say",
-                              apart.by_bits, apart.by_bits == 1 ? "" : "s",
-                              apart.by_bits == 1 ? "s" : "");
+    cache_.diagnostics().note(
+        Place(model_.document().file()),
+        "{} pair{} of bodies never collide{} because of contype and conaffinity", apart.by_bits,
+        apart.by_bits == 1 ? "" : "s", apart.by_bits == 1 ? "s" : "");
 }
 
 /// Accepts a scene without bodies if its <worldbody> is empty, too.

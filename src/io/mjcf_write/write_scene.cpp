@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "clench/base/text.h"
-#include "clench/io/mjcf/solver_settings.h"
+#include "clench/io/mjcf/document/solver_settings.h"
 #include "clench/io/mjcf_write/written_actuators.h"
 #include "clench/io/mjcf_write/written_carriage.h"
 #include "clench/io/mjcf_write/written_friction.h"
@@ -374,8 +374,8 @@ void SceneWriter::tell_losses(MjcfFiles& out) const {
   if (!textured.empty()) names.push_back("the textures of " + some_names(textured));
   for (const WrittenKey& key : request_.keys)
     if (const auto still = unmoved_in(key, scene_); !still.empty())
-      names.push_back(fmt::format("the poses in key '{}' of bodies that stand fixed: {}",
-                                  excerpt(key.name), name_list(still)));
+      names.push_back(fmt::format("the poses in key '{}' of fixed bodies: {}", excerpt(key.name),
+                                  name_list(still)));
   for (const std::string& name : names) out.losses.push_back("it does not hold " + name);
 }
 

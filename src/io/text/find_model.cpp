@@ -62,7 +62,7 @@ fs::path find_converted(const std::string& name, const fs::path& referrer, Model
   } catch (const Error& missing) {
     const fs::path sibling = try_endings(name, referrer, kind, options);
     if (sibling.empty()) throw missing;
-    options.diagnostics.note(place, "there is no {}; {} is taken", name,
+    options.diagnostics.note(place, "there is no {}; {} is used instead", name,
                              sibling.filename().string());
     return sibling;
   }
@@ -80,7 +80,7 @@ fs::path find_model(const std::string& name, const fs::path& referrer, ModelKind
     const fs::path root = options.root.empty() ? referrer.parent_path() / ".." : options.root;
     const fs::path found = rooted ? try_generations(name, root, kind, options) : fs::path();
     if (found.empty()) throw missing;
-    options.diagnostics.repaired(place, "{} is not below the root; {} is taken", name,
+    options.diagnostics.repaired(place, "{} is not below the root; {} is used instead", name,
                                  found.generic_string());
     return found;
   }

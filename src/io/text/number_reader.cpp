@@ -45,8 +45,7 @@ Eigen::Quaterniond NumberReader::quaternion(std::string_view what) {
 
 void NumberReader::finish(const Diagnostics& diagnostics) {
   if (diagnostics && more())
-    diagnostics.warn(line_.place(), "what follows from {} on is not used",
-                     in_quotes(line_.word(next_)));
+    diagnostics.warn(line_.place(), "text from {} on is not used", in_quotes(line_.word(next_)));
 }
 
 void warn_of_surplus(const Line& line, int used, const Diagnostics& diagnostics) {

@@ -25,7 +25,7 @@ double Repairs::magnitude(double value, const Place& subject) {
 
 double Repairs::not_zero(double value, double absent, const Place& subject) {
   if (value != 0) return value;
-  add("zero", subject, "0 is none; {} is used, as where it is missing", absent);
+  add("zero", subject, "0 is not allowed; {} is used, as for a missing value", absent);
   return absent;
 }
 

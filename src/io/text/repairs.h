@@ -23,8 +23,8 @@ class Repairs {
   /// A value that must not be negative: "hand.xml:6: DOF 0: maxEffort: -1.5 is negative; 1.5 is
   /// used".
   double magnitude(double value, const Place& subject);
-  /// A value that must not be 0: "distal.xml:5: mass: 0 is none; 300 is used, as where it is
-  /// missing".
+  /// A value that must not be 0: "distal.xml:5: mass: 0 is not allowed; 300 is used, as for a
+  /// missing value".
   double not_zero(double value, double absent, const Place& subject);
   /// The value clamped to low..high: "hand.xml:9: color: rgba: 1.5 is not in 0..1; 1 is used".
   double within(double value, double low, double high, const Place& subject);

@@ -139,10 +139,10 @@ std::string broken_part(const tinyxml2::XMLDocument& document) {
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
       return broken_element(document) + " without its closing tag";
     case tinyxml2::XML_ERROR_PARSING_ELEMENT:
-      return broken_element(document) + " that does not end, or begins as none";
+      return broken_element(document) + " that does not end, or has no name";
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
       return broken_element(document) +
-             " with an attribute that stands twice or has no value in quotes";
+             " with an attribute that is repeated or has no value in quotes";
     case tinyxml2::XML_ERROR_PARSING_TEXT:
       return "text outside all elements, or in one that does not end";
     case tinyxml2::XML_ERROR_PARSING_CDATA:
@@ -150,11 +150,11 @@ std::string broken_part(const tinyxml2::XMLDocument& document) {
     case tinyxml2::XML_ERROR_PARSING_COMMENT:
       return "a comment that does not end";
     case tinyxml2::XML_ERROR_PARSING_DECLARATION:
-      return "a declaration that does not end or stands too late";
+      return "a declaration that does not end or comes too late";
     case tinyxml2::XML_ERROR_PARSING_UNKNOWN:
       return "a '<!' that does not end";
     default:
-      return "an element that does not end, or a '<' that begins none";
+      return "an element that does not end, or a '<' that begins no element";
   }
 }
 

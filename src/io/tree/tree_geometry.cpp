@@ -203,7 +203,7 @@ TreeGeometry::Body TreeGeometry::merge(const std::vector<GeometryPiece>& pieces,
   RoundPieces rounds = rounds_of(pieces);
   if (rounds.pieces.size() > max_round_pieces) {
     options_.diagnostics.note(
-        subject, "its {} round shapes touch as their triangles, since there are more than {}",
+        subject, "its {} round shapes collide as triangle meshes, because there are more than {}",
         rounds.pieces.size(), max_round_pieces);
     rounds = {};
   }

@@ -94,17 +94,17 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
     if (shape) (has_volume ? weightless : open).push_back(body.name);
   }
   if (contacts_known && !any_collision && any_visual)
-    cache.diagnostics().note(Place(file), "nothing collides, as contype and conaffinity say");
+    cache.diagnostics().note(Place(file), "nothing collides because of contype and conaffinity");
   else if (!any && any_visual)
     cache.diagnostics().note(
-        Place(file), "no link has geometry to collide with; that for pictures is used for both");
+        Place(file), "no link has collision geometry; the visual geometry is used for both");
   if (!ghosts.empty() && any_collision)
     cache.diagnostics().note(Place(file),
                              "links that have geometry for pictures only collide with nothing: {}",
                              some_names(ghosts));
   if (!weightless.empty())
     cache.diagnostics().note(Place(file),
-                             "links without a mass weigh what their volume of water does: {}",
+                             "links without a mass get the mass of their volume of water: {}",
                              some_names(weightless));
   if (!open.empty())
     cache.diagnostics().note(
@@ -112,7 +112,7 @@ void dress_links(TreeModel& tree, const std::vector<LinkPieces>& pieces, TreeGeo
         "links without a mass whose surface is open, and so bounds no volume, weigh {} kg: {}",
         frame_mass, some_names(open));
   if (!contacts_known)
-    cache.diagnostics().note(Place(file), "says nothing of friction; all links count as plastic");
+    cache.diagnostics().note(Place(file), "it gives no friction; all links count as plastic");
 }
 
 }  // namespace clench

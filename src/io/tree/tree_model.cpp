@@ -24,7 +24,7 @@ void resolve_leaders(TreeModel& tree) {
       const TreeJoint& before = tree.joints[joint.leader];
       // a sequence of leaders longer than the number of joints is a cycle
       if (++steps > count)
-        fail("{}: joint '{}' follows itself by way of '{}'", joint.place, excerpt(joint.name),
+        fail("{}: joint '{}' follows itself via '{}'", joint.place, excerpt(joint.name),
              excerpt(first));
       joint.offset += joint.ratio * before.offset;
       joint.ratio *= before.ratio;

@@ -57,7 +57,7 @@ inline constexpr double unlimited = 1e9;
 Pose joint_pose(const TreeJoint& joint, double q);
 
 /// Resolves leaders that follow others, so that every leader is a DOF.
-/// throws  Error "hand.urdf:31: joint 'a' follows itself by way of 'b'"
+/// throws  Error "hand.urdf:31: joint 'a' follows itself via 'b'"
 void resolve_leaders(TreeModel& tree);
 
 /// The first joint of a DOF determines whether its unit is a length or an angle. Reorders branches

@@ -137,9 +137,9 @@ void RobotMaker::tell_closing() {
       closing.push_back((dof.default_velocity > 0 ? "+" : "-") + dof.name);
   cache_.diagnostics().note(
       !closing.empty()
-          ? fmt::format("{}: these DOFs close it, by its geometry: {}; the option "
-                        "'close' says otherwise",
-                        file_, name_list(closing))
+          ? fmt::format(
+                "{}: these DOFs close it, by its geometry: {}; the option 'close' overrides this",
+                file_, name_list(closing))
           : fmt::format("{}: no DOF is found to close it; the option 'close' names some", file_));
   tell_approach();
 }
@@ -151,7 +151,7 @@ void RobotMaker::tell_approach() {
   cache_.diagnostics().note(
       Place(file_),
       "by its geometry its approach direction is ({:.3g}, {:.3g}, {:.3g}) and its approach point "
-      "({:.3f}, {:.3f}, {:.3f}) m in its base; the option 'approach' says otherwise",
+      "({:.3f}, {:.3f}, {:.3f}) m in its base; the option 'approach' overrides this",
       z.x() + 0.0, z.y() + 0.0, z.z() + 0.0, p.x() + 0.0, p.y() + 0.0, p.z() + 0.0);
 }
 

@@ -189,8 +189,9 @@ std::vector<Diagnostic> UnusedXml::diagnostics() const {
   for (const Kind& kind : attributes_) {
     std::vector<std::string> names;
     for (const auto& entry : kind.attributes) names.push_back(shown(entry.first));
-    out.emplace_back(kind.place, fmt::format("of {}, here and further on, not used: {}",
-                                             element(kind), name_list(names)));
+    out.emplace_back(kind.place,
+                     fmt::format("attributes of {} that are not used, here and further on: {}",
+                                 element(kind), name_list(names)));
   }
   for (const Kind& kind : texts_)
     out.emplace_back(

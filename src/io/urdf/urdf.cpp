@@ -339,7 +339,7 @@ void UrdfReader::order_links() {
   std::vector<int> roots;
   for (int i = 0; i < static_cast<int>(links_.size()); ++i)
     if (links_[i].parent < 0) roots.push_back(i);
-  if (roots.empty()) xml_.root().fail("robot: every link has a parent: its joints run in a circle");
+  if (roots.empty()) xml_.root().fail("robot: every link has a parent: its joints form a loop");
   if (roots.size() > 1)
     xml_.root().fail("robot: expected one link without a parent, got {}: '{}' and '{}'{}",
                      roots.size(), excerpt(links_[roots[0]].body.name),
@@ -370,7 +370,7 @@ void UrdfReader::order_links() {
       stack.push_back({(*it)->child, number, *it});
   }
   if (tree_.links.size() < links_.size())
-    xml_.root().fail("robot: {} of its links hang on no root: their joints run in a circle",
+    xml_.root().fail("robot: {} of its links are connected to no root: their joints form a loop",
                      links_.size() - tree_.links.size());
   pieces_ = std::move(pieces);
 }
@@ -439,7 +439,8 @@ void UrdfReader::read_mimics() {
     const auto self = joint_numbers_.find(from.name);
     if (self == joint_numbers_.end()) {
       if (from.type == "fixed" || from.type == "floating" || from.type == "planar")
-        cache_.diagnostics().warn(mimic.place(), "joint '{}' does not move, and mimics nothing",
+        cache_.diagnostics().warn(mimic.place(),
+                                  "joint '{}' does not move, so its mimic is not used",
                                   excerpt(from.name));
       continue;
     }

@@ -30,7 +30,8 @@ class BestList {
   const BestListOptions& options() const { return options_; }
   /// Would a state of this energy be kept if none were similar?
   bool may_keep(double energy) const;
-  /// returns  was it kept: no similar state is as good, and the list is not full or has worse ones
+  /// returns  true if it is kept: no similar state is as good, and the list is not full or has
+  ///          worse ones
   bool add(const SearchSpace& space, FoundState found);
   /// Excludes its surroundings from now on.
   void avoid(const HandState& state) { avoided_.push_back(state); }

@@ -17,7 +17,7 @@ void run_together(std::span<Share> shares, int threads, const Progress& progress
   std::set<const World*> worlds;
   for (const Share& share : shares)
     if (!worlds.insert(&share.search->world()).second)
-      fail("searches that run together need a world each");
+      fail("searches that run at once need separate worlds");
 
   std::vector<std::exception_ptr> failures(shares.size());
   const auto run = [&](size_t i) {

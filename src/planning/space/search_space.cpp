@@ -175,7 +175,7 @@ void SearchSpace::check() const {
   for (const Variable& variable : variables_) {
     check_variable(variable);
     if (!names.insert(variable.name).second)
-      fail("search variable '{}': the name comes twice", excerpt(variable.name));
+      fail("search variable '{}': the name is used twice", excerpt(variable.name));
   }
 }
 

@@ -63,7 +63,7 @@ class SearchSpace {
   /// divided by the radius, half the rotation angle divided by pi, and, if it is included, the
   /// largest difference of a DOF divided by its range.
   double distance(const HandState& a, const HandState& b, double radius, bool posture) const;
-  /// Is that below a limit? Faster.
+  /// Is distance() below a limit? Faster than computing it.
   bool alike(const HandState& a, const HandState& b, double radius, bool posture,
              double limit) const;
 

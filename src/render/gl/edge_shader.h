@@ -3,7 +3,7 @@
 
 namespace clench::shaders {
 
-/// mixes a pixel at an edge with the pixel across it, by its position along the step of the edge
+/// mixes a pixel at a stepped edge with the pixel across the edge: the nearer to the step, the more
 inline constexpr const char* edge_fragment = R"(
 uniform sampler2D pixels;
 uniform vec2 window;  // position in the picture of the first pixel of the window

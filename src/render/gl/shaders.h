@@ -87,7 +87,7 @@ float seen(int i, vec3 p) {
   vec3 q = axes[i] * p;
   return texture(maps, vec4(0.5 + 0.5 * q.xy, i, min(0.5 - 0.5 * q.z, 0.99999)));
 }
-// light of a lamp, all of whose points are near the first, reflected by a matte white surface
+// light that a matte white surface reflects, from a lamp whose points are all near its first one
 float lamp_on(vec3 p, vec3 n) {
   vec3 start = off(p, n, dot(n, to_light[0]));
   float sum = 0;

@@ -15,7 +15,7 @@ namespace {
 // maximum edges, over which light is interpolated [scene units]: of opaque and of transparent
 // surfaces
 constexpr float longest_edge = 0.07f, longest_clear_edge = 0.2f;
-// of one piece after splitting; pieces with more are not split
+// maximum number of triangles of a piece after splitting; larger pieces are not split
 constexpr size_t max_triangles = 200000;
 
 Extent extent_of_pieces(std::span<const Piece> pieces) {

@@ -11,8 +11,8 @@ struct Destination {
   int x = 0, y = 0;
 };
 
-/// Mixes pixels at edges with those across, by their position along the step of the edge. `program`
-/// is Programs::edges; `colors` holds the picture, with colors premultiplied by alpha.
+/// Mixes each pixel at a stepped edge with the pixel across the edge: the nearer to the step, the
+/// more. `program` is Programs::edges; `colors` holds the picture, with colors premultiplied by alpha.
 /// source  Lottes (2009), FXAA
 void smooth_to(unsigned program, const Cover& cover, unsigned colors, const RenderOptions& options,
                const Destination& destination);

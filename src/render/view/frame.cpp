@@ -317,7 +317,7 @@ Eye frame(const Scene& scene, double aspect, bool ortho) {
     return fit({{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {-0.5, 0.5, 0}, {0.5, 0.5, 0}}, default_back,
                aspect, ortho);
 
-  // directions all around; the default unless another shows clearly more
+  // directions all around; the default is kept unless another shows clearly more
   const Points some = every_so_often(sight.framed, framed_looked_at);
   Eigen::Vector3d best = default_back;
   double most = -1e9;

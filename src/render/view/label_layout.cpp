@@ -21,7 +21,7 @@ constexpr float arrow_air = 0.004f;
 constexpr float air = 0.35f;  // margin around letters, as a fraction of their height
 const Eigen::Vector3f caption_color(0.1f, 0.1f, 0.1f);
 
-// distances and directions in which a box is displaced: each ring has 16
+// where a box may move if its place is taken: 16 places on each of 8 rings about it
 constexpr int rings = 8, ring_places = 16;
 constexpr float ring_step = 0.5f;  // in heights of the box
 

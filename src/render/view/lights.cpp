@@ -75,7 +75,7 @@ float light_on_floor(const std::vector<Light>& lights) {
 }
 
 std::vector<Eigen::Vector2d> place_samples(int count) {
-  // a tent over two pixels, by its inverse distribution
+  // maps [0, 1] to samples of a tent filter over two pixels
   const auto tent = [](double u) {
     return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u);
   };

@@ -84,15 +84,16 @@ Parcel::Node Parcel::pack(Packing& packing, int index, const std::string& what, 
     case LUA_TUSERDATA:
       return pack_object(packing, index, what);
     default:
-      fail("{}: a {} cannot be handed over", what, lua_typename(L, lua_type(L, index)));
+      fail("{}: a {} cannot be copied to another state", what, lua_typename(L, lua_type(L, index)));
   }
 }
 
 Parcel::Node Parcel::pack_table(Packing& packing, int index, const std::string& what, int depth) {
   lua_State* L = packing.L;
   if (depth == max_depth)
-    fail("{}: lists in lists, more than {} deep, cannot be handed over", what, max_depth);
-  if (!lua_checkstack(L, 4)) fail(ErrorKind::limit, "{}: no room on Lua's stack", what);
+    fail("{}: lists in lists, more than {} deep, cannot be copied to another state", what,
+         max_depth);
+  if (!lua_checkstack(L, 4)) fail(ErrorKind::limit, "{}: too many values on Lua's stack", what);
   Fields fields;
   lua_pushnil(L);
   while (lua_next(L, index)) {
@@ -133,7 +134,7 @@ Parcel::Node Parcel::pack_object(Packing& packing, int index, const std::string&
     return copied(BodyHandle{clone_of(packing, b->world), b->id});
   if (const auto* r = to<RobotHandle>(L, index))
     return copied(RobotHandle{clone_of(packing, r->world), r->id});
-  fail("{}: {} cannot be handed over", what, described(L, index));
+  fail("{}: {} cannot be copied to another state", what, described(L, index));
 }
 
 void Parcel::unpack(lua_State* L, const Node& node) {
@@ -146,7 +147,7 @@ void Parcel::unpack(lua_State* L, const Node& node) {
     void operator()(double x) const { lua_pushnumber(L, x); }
     void operator()(const std::string& text) const { lua_pushlstring(L, text.data(), text.size()); }
     void operator()(const Fields& fields) const {
-      if (!lua_checkstack(L, 4)) fail(ErrorKind::limit, "no room on Lua's stack");
+      if (!lua_checkstack(L, 4)) fail(ErrorKind::limit, "too many values on Lua's stack");
       lua_createtable(L, 0, 0);
       for (const auto& [key, value] : fields) {
         unpack(L, key);

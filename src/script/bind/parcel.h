@@ -20,7 +20,7 @@ class Parcel {
  public:
   Parcel() = default;
   /// Copies the value at the index.
-  /// throws  Error "clench.parallel.map: items[3].close: a function cannot be handed over"
+  /// throws  Error "clench.parallel.map: items[3].close: a function cannot be copied to another state"
   Parcel(lua_State* L, int index, const std::string& what);
 
   /// Pushes the value, with the worlds that were cloned for it; nil for an empty parcel.

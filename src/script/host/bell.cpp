@@ -14,7 +14,7 @@ namespace clench {
 
 Bell::Bell() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   if (descriptor_ < 0)
-    fail(ErrorKind::limit, "clench.job: no descriptor left: {}", std::strerror(errno));
+    fail(ErrorKind::limit, "clench.job: out of descriptors: {}", std::strerror(errno));
 }
 
 Bell::~Bell() { ::close(descriptor_); }

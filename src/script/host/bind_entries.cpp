@@ -42,7 +42,7 @@ static int entries(lua_State* L) {
 
 static const Entry entries_functions[] = {
     {"entries", guarded<entries>, R"(
-The module about itself: each library and class with its functions, fields and methods, each with name, doc and `id`, the first upvalue of its function; and the files of the standard library. Documentation, completion and help are made from it.
+The contents of the module: each library and class with its functions, fields and methods, each with name, doc and `id`, the first upvalue of its function; and the files of the standard library. Documentation, completion and help are generated from it.
 @return {libraries: table[], classes: table[], files: table[]}
 @effect reads
 > clench.entries().libraries[1].name  --> clench)"},

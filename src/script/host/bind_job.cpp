@@ -56,9 +56,10 @@ struct StartedJobs {
   }
 };
 
-constexpr size_t max_jobs = 1000;  // of one state that are queued, running or paused
+// maximum number of jobs of one state that are queued, running or paused
+constexpr size_t max_jobs = 1000;
 
-// of a list, or of a table that table.pack has made
+// number of items of a list, or of a table that table.pack has made
 lua_Integer count_arguments(lua_State* L, int list, const std::string& subject) {
   auto count = static_cast<lua_Integer>(lua_rawlen(L, list));
   lua_getfield(L, list, "n");
@@ -181,7 +182,7 @@ int get_this_job(lua_State* L) {
 
 const Entry job_functions[] = {
     {"job", guarded<new_job>, R"(
-Runs a function concurrently with the script: in a thread, in a separate Lua state, on copies of its arguments. As many jobs run at once as there are cores, at least two; others are queued. A job without a handle continues; the end of the program stops it.
+Runs a function concurrently with the script: in a thread, in a separate Lua state, on copies of its arguments. As many jobs run at once as there are cores, but at least two; others are queued. A job without a handle continues; the end of the program stops it.
 @param task function|string  which uses nothing of the lines around it; or the name of a module that returns such a function
 @param options? table  what it is given
 @option args? any[]  the function's arguments, of the kinds that clench.parallel.map hands over
@@ -207,7 +208,7 @@ The job whose function this is; nil outside of jobs.
 
 const Entry job_fields[] = {
     {"state", getter<[](const JobPtr& x) { return word_of(x->phase(), phases); }>, R"(
-Its present phase.
+Its present state.
 @type "queued"|"running"|"paused"|"done"|"failed"|"stopped"
 > job = clench.job(function() end)
 > job:wait()
@@ -223,7 +224,7 @@ Progress of its longest call, or of the loop that it shows by `clench.progress`.
 > job:wait()
 > job.progress.text  --> )"},
     {"snapshot", guarded<get_snapshot>, R"(
-The latest value that it has shown by `clench.this_job:show`; nil before the first.
+The latest value shown by `clench.this_job:show`; nil before the first.
 @type any
 > job = clench.job(function() for i = 1, 4 do clench.this_job:show(i) end end)
 > job:wait()
@@ -246,7 +247,7 @@ Results of its function. Raises the function's error, and an error if the job wa
 > job:wait()
 > job:result()  --> error: no luck)"},
     {"stop", method<[](const JobPtr& x) { x->stop(); }>, R"(
-Stops it within some 100 ms, in Lua and in calls of the engine; other programs that it has started and not waited for to the end are ended, too. In a call of string.find with a hostile pattern it ends after that call. A job that is over is not affected.
+Stops it within about 100 ms, in Lua and in calls of the engine; other programs that it has started and not waited for to the end are ended, too. A call of string.find with a hostile pattern ends first. A job that is over is not affected.
 @effect edits
 > job = clench.job(function() while true do end end)
 > job:stop()
@@ -255,14 +256,14 @@ Stops it within some 100 ms, in Lua and in calls of the engine; other programs t
 > job:stop()
 > job:wait(5), job.state  --> true, stopped)"},
     {"pause", method<[](const JobPtr& x) { x->pause(); }>, R"(
-Holds it at its next instruction in Lua; a call of the engine ends first.
+Pauses it at its next instruction in Lua; a call of the engine ends first.
 @effect edits
 > job = clench.job(function() while true do end end)
 > job:pause()
 > job:stop()
 > job:wait(5), job.state  --> true, stopped)"},
     {"resume", method<[](const JobPtr& x) { x->resume(); }>, R"(
-Lets it run on after `pause`.
+Lets it continue after `pause`.
 @effect edits
 > job = clench.job(function() end)
 > job:pause()
@@ -302,7 +303,7 @@ Sends a value to the script that has started the job. Events arrive in order, an
 > job:wait()
 > job:events()  --> {{grasps = 1}})"},
     {"show", guarded<show_value>, R"(
-Shows a value, which becomes `job.snapshot`, in place of the previous one.
+Shows a value, which becomes `job.snapshot` and replaces the previous one.
 @param value any  of the kinds that clench.parallel.map hands over
 @effect edits
 > job = clench.job(function() clench.this_job:show "half" end)

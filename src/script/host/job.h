@@ -42,7 +42,7 @@ class Job {
   bool is_over() const;
   Watcher::State progress() const;
   /// Waits until the job is over, for at most `time`.
-  /// returns  is it over?
+  /// returns  true if it is over
   bool wait(std::chrono::milliseconds time) const;
 
   void stop();
@@ -55,7 +55,7 @@ class Job {
   /// The latest value that the job has shown; null before the first.
   std::shared_ptr<const Parcel> snapshot() const;
   /// Leaves the values that the function returned on the stack.
-  /// returns  how many
+  /// returns  their number
   /// throws  Error of the function, or if it was stopped, or is not over yet
   int push_results(lua_State* L) const;
 

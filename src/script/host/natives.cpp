@@ -74,7 +74,7 @@ static int packed_text(lua_State* L) {
 
 using DeadlinePtr = std::shared_ptr<Deadline>;
 
-// deadline:close(): ends the deadline.   returns  has the time passed?
+// deadline:close(): ends the deadline.   returns  true if the time has passed
 static int close_deadline(lua_State* L) { return push(L, self<DeadlinePtr>(L)->close()); }
 
 static const Entry deadline_methods[] = {{"close", guarded<close_deadline>, ""}};

@@ -350,7 +350,7 @@ int get_cores(lua_State* L) {
 
 const Entry functions[] = {
     {"map", guarded<map>, R"(
-Calls a function for each item of a list, in many threads, each with a separate Lua state and separate worlds. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are as they were given, and math.random begins anew. All states together are limited to the memory of the calling one.
+Calls a function for each item of a list, in several threads, each with a separate Lua state and separate worlds. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are in their original state, and math.random is seeded anew. All states together are limited to the memory of the calling one.
 @param task function|string  (item, shared, number), which uses nothing of the lines around it; or the name of a module that returns such a function
 @param items table  a list of plain data, worlds, bodies, robots, snapshots, meshes, poses, vectors, random numbers and grasps; each is handed over as a copy, grasps in no world
 @param options? table  threads and shared values
@@ -363,9 +363,9 @@ Calls a function for each item of a list, in many threads, each with a separate 
 > clench.parallel.map(function(x) return x * x end, {1, 2, 3})  --> {1, 4, 9}, 0
 > clench.parallel.map(function(p, s) s.body.pose = p; return s.body.pose.position.z end, {clench.pose {xyz = {0, 0, 2}}}, {shared = {body = flask}})  --> {2.0}, 0
 > clench.parallel.map(function(x) return hand.dofs end, {1})[1].error:match "global 'hand'" ~= nil  --> true
-> clench.parallel.map(function() return world end, {print})  --> error: items[1]: a function cannot be handed over)"},
+> clench.parallel.map(function() return world end, {print})  --> error: items[1]: a function cannot be copied to another state)"},
     {"nice", guarded<nice>, R"(
-Niceness of the threads that `map` and `clench.job` start from now on: with an open window, 10 gives it priority.
+Niceness of the threads that `map` and `clench.job` start from now on; 10 gives an open window priority over them.
 @param level? integer  from 0, as the script itself, to 19; without it the level stays
 @return integer level
 @effect edits
@@ -377,7 +377,7 @@ Niceness of the threads that `map` and `clench.job` start from now on: with an o
 
 const Entry fields[] = {
     {"cores", guarded<get_cores>, R"(
-Threads that this machine runs at once.
+Number of threads that this machine runs at once.
 @type integer
 > clench.parallel.cores >= 1  --> true)"},
 };

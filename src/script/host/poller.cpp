@@ -16,7 +16,7 @@ namespace clench {
 
 static int opened(int descriptor) {
   if (descriptor < 0)
-    fail(ErrorKind::limit, "clench.loop: no descriptor left: {}", std::strerror(errno));
+    fail(ErrorKind::limit, "clench.loop: out of descriptors: {}", std::strerror(errno));
   return descriptor;
 }
 

@@ -25,7 +25,7 @@ class CoreSlot {
   /// The slot of the calling thread; null if it holds none.
   static CoreSlot* of_thread();
   /// Makes it available to other threads.
-  /// returns  was it not lent yet?
+  /// returns  false if it was lent already
   bool lend();
   /// Hands it to the thread that starts with Start::handed.
   /// returns  as lend()

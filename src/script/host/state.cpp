@@ -72,7 +72,7 @@ static int open_all(lua_State* L) {
   luaL_requiref(L, "clench", clench_open, 1);
   lua_pop(L, 1);
   add_bare_names(L);
-  push_packed(L, "error_text");  // while all that it needs is there
+  push_packed(L, "error_text");  // loaded before a script can change what it needs
   lua_pop(L, 1);
   // passes our tracker to the module that wraps coroutines
   push_packed(L, "host.coroutines");

@@ -129,7 +129,7 @@ WorkerError take_worker_error(lua_State* L) {
   lua_sethook(L, nullptr, 0, 0);
   if (lua_pcall(L, 1, 2, 0) == LUA_OK) out = {words(-2), words(-1)};
   lua_sethook(L, hook, mask, count);
-  if (out.words.empty()) out.words = "an error without words";
+  if (out.words.empty()) out.words = "an error without a message";
   lua_settop(L, top);
   return out;
 }

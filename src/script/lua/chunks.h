@@ -12,7 +12,7 @@ namespace clench {
 int load_text_file(lua_State* L, const char* path);
 int load_text(lua_State* L, const char* text, size_t size, const char* name);
 
-/// Pushes the values that require expects of a searcher that has found the file of a module.
+/// Pushes the results of a searcher of require that has found the file of a module.
 int load_module(lua_State* L, const char* module, const char* path);
 
 /// Replaces load, loadfile, dofile, and the searcher of require for Lua files.

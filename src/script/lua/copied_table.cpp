@@ -159,7 +159,7 @@ static void push_assignments(lua_State* L, const lua_Debug& at) {
   lua_pushboolean(L, false);
 }
 
-// the same, found only once for each function of a file
+// the same, computed once for each function of a file
 static void push_known_assignments(lua_State* L, const lua_Debug& at, int function) {
   if (at.source[0] == '=') return push_assignments(L, at);
   push_registered(L, &lines_key, "k");

@@ -18,8 +18,9 @@ class Deadline {
   Deadline(const Deadline&) = delete;
   Deadline& operator=(const Deadline&) = delete;
 
-  /// Ends the wait, and withdraws the deadline's own request; a stop that the user asked for remains.
-  /// returns  has the time passed?
+  /// Ends the wait, and withdraws the deadline's own request; a stop that the user asked for
+  /// remains.
+  /// returns  true if the time has passed
   bool close();
 
  private:

@@ -7,7 +7,7 @@
 namespace clench {
 
 /// Pushes the table whose registry key is the address of `key`, created on first use.
-/// returns  is it new?
+/// returns  true if it is new
 inline bool push_kept_table(lua_State* L, const void* key) {
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, key) == LUA_TTABLE) return false;
   lua_pop(L, 1);

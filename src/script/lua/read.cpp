@@ -52,7 +52,7 @@ std::string described(lua_State* L, int index) {
       return lua_toboolean(L, index) ? "true" : "false";
     case LUA_TNUMBER:
       if (lua_isinteger(L, index)) return fmt::format("{}", lua_tointeger(L, index));
-      // its sign depends on how it was made
+      // its sign depends on the computation
       if (std::isnan(lua_tonumber(L, index))) return "nan";
       return fmt::format("{}", lua_tonumber(L, index));
     case LUA_TSTRING:

@@ -37,7 +37,7 @@ std::function<double()> script_number(lua_State* L, int index) {
   const auto function = std::make_shared<Reference>(main, number);
   return [function, current = kept<Current>(L).state] {
     lua_State* const now = *current;
-    if (!now || !lua_checkstack(now, 4)) fail("a script's function: there is no script that waits");
+    if (!now || !lua_checkstack(now, 4)) fail("a script's function: no script is waiting for it");
     lua_rawgeti(now, LUA_REGISTRYINDEX, function->number);
     call_script(now, 0, 1, "energy");
     if (lua_type(now, -1) != LUA_TNUMBER) {

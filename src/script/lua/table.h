@@ -74,7 +74,7 @@ class Table {
   template <class T>
   T* object(const char* key);
   /// Pushes a function, or nil if absent.
-  /// returns  is there one?
+  /// returns  true if there is one
   bool push_function(const char* key);
   /// Pushes the value of the key, for types that have no reader here.
   /// returns  its type

@@ -34,10 +34,10 @@ class Bar : public Watcher {
   /// Requests a stop at the end of a time limit. Any thread may call it.
   void end_time() { out_of_time_ = true, stop(); }
   /// Withdraws a request of end_time(), and leaves that of interrupt().
-  /// returns  was there one?
+  /// returns  true if there was one
   bool take_end_of_time();
   /// Withdraws all requests.
-  /// returns  was there one?
+  /// returns  true if there was one
   bool take_all();
 
  private:

@@ -1,5 +1,5 @@
---- The Model Context Protocol over standard input and output: methods of the server as tools, for programs that let language models call them.
---- Clients of all revisions are served: those that begin with initialize, and those whose requests name their revision.
+--- The Model Context Protocol over standard input and output: offers methods of the server as tools to programs that let language models call them.
+--- Supports clients of all revisions: those that begin with initialize, and those whose requests name their revision.
 local described = require "clench.described"
 local failure = require "clench.control.rpc.failure"
 local is_stopped = require "clench.is_stopped"
@@ -47,7 +47,7 @@ end
 
 local progress_interval = 0.25  -- between notifications [s]
 
--- notifies of the progress of a job until it ends
+-- sends notifications of the progress of a job until it ends
 local function report_progress(client, job, progress_token)
   clench.loop.spawn(function()
     local last = 0
@@ -74,7 +74,7 @@ local function content(text, is_error) return {content = {{type = "text", text =
 
 local cancelled = setmetatable({}, {__mode = "k"})  -- jobs of requests that are not answered, as their clients have cancelled them
 
--- What fails is a result, which a model can read and correct; only a tool that does not exist is an error of the protocol.
+-- A failure is returned as a result, which a model can read and correct; only an unknown tool is an error of the protocol.
 local function call_tool(context, params, id)
   local server, client = context.server, context.client
   local method = method_of(server, string_in(params, "name"))
@@ -138,7 +138,7 @@ end
 --- Answers a line.
 function mcp.answer(server, client, line)
   client.running = client.running or {}
-  local context = {server = server, client = client, session = server.session, notify = function() end}  -- states of jobs are asked for
+  local context = {server = server, client = client, session = server.session, notify = function() end}  -- they query states of jobs
   local function reply(text)
     if text then client:send(text .. "\n") end
   end

@@ -2,10 +2,10 @@
 local methods = require "clench.control.rpc.methods"
 local tools = {}
 
--- methods of connections, and what has no meaning without notifications
+-- methods that concern connections, and those that need notifications
 local left_out = {hello = true, describe = true, subscribe = true, subscribe_state = true, unsubscribe = true}
 
--- commands and methods beside queries that change neither world, session nor files; searches run on a copy of the world
+-- commands and methods, in addition to queries, that change neither world, session nor files; searches run on a copy of the world
 local harmless = {}
 for _, name in ipairs {"body.distance", "grasp.quality", "grasp.measures", "grasp.contacts", "grasp.projection", "grasp.forces", "grasp.stability",
                        "grasp.maximum_wrench", "grasp.preload", "grasp.resistible_wrenches",
@@ -56,7 +56,7 @@ local function input_of(parameters)
   return {type = "object", properties = properties, required = #required > 0 and required or nil, additionalProperties = false}
 end
 
--- names of tools have no dots, which programs that pass them on reject; names of methods have no hyphens
+-- names of tools have no dots, which client programs reject; names of methods have no hyphens
 local function tool_name(method) return (method:gsub("%.", "-")) end
 
 local function described(server, description)
@@ -79,7 +79,7 @@ end
 
 --- The method of a tool.
 ---@return string? method  nil: the server has no such tool
----@return boolean needs_control  would it have one with control?
+---@return boolean needs_control  would there be one with control?
 function tools.method_of(server, name)
   local method = name:gsub("%-", ".")
   local description = tool_name(method) == name and not left_out[method] and methods.describe(server.session, method)

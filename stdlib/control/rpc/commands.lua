@@ -1,4 +1,4 @@
---- Commands of the session as methods of JSON-RPC. Long ones run as jobs on a clone; what they change is applied as one edit that can be undone,
+--- Commands of the session as methods of JSON-RPC. Long ones run as jobs on a clone; their changes are applied as one edit that can be undone,
 --- if the world has not changed since.
 local arguments = require "clench.session.arguments"
 local failure = require "clench.control.rpc.failure"
@@ -9,7 +9,7 @@ local commands = {}
 
 local apply = "control.apply"
 
---- Does a command take so long that it runs as a job?
+--- Is a command so long that it runs as a job?
 function commands.is_long(command) return command.long == true and (command.script ~= nil or command.reads == true) end
 
 --- Prepares the session of a server: registers the command by which results of jobs become edits, and counts edits in `server.edits`.
@@ -62,7 +62,7 @@ local function start(context, command, args)
   return job
 end
 
--- keeps a job and waits for it; finish(made) returns what the job leaves as its result
+-- registers a job and waits for it; finish(made) returns the result of the request
 local function result_of(context, job, finish)
   local number = jobs.keep(context, job, function(kept)
     if kept.job.state == "done" then kept.result = finish(kept.job:result()) end
@@ -71,21 +71,21 @@ local function result_of(context, job, finish)
   clench.loop.wait(job)
   while kept.result == nil and kept.problem == nil and kept.job.state == "done" do clench.loop.sleep(0) end
   if kept.problem then error(kept.problem, 0) end
-  if kept.result == nil then kept.job:result() end  -- raises why
+  if kept.result == nil then kept.job:result() end  -- raises the job's error
   return kept.result, number
 end
 
 local function run_long(context, command, args)
   local session = context.session
   local world = session.world or failure.raise("failed", "no world is open")
-  if command.enabled and not command.enabled(session) then return session:run(command.name, args) end  -- raises why
+  if command.enabled and not command.enabled(session) then return session:run(command.name, args) end  -- raises the job's error
   if command.reads then
     return (result_of(context, start(context, command, args), function(made) return {result = clench.json.decode(made.result)} end)).result
   end
   local server = context.server
   local before, edits, lines = world:hash(), server.edits, command.script(session, args)
   local result, number = result_of(context, start(context, command, args), function(made)
-    -- the hash is that of the state; masses and the like are changed by edits
+    -- the hash covers the state; edits count other changes, such as those of masses
     local is_same = session.world == world and server.edits == edits and world:hash() == before
     if is_same then session:run(apply, {world = made.world, lines = lines}) end
     return {applied = is_same, result = clench.json.decode(made.result)}

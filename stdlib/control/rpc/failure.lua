@@ -6,9 +6,9 @@ local in_utf8 = require "clench.in_utf8"
 
 local failure = {
   parse = -32700, request = -32600, method = -32601, params = -32602, internal = -32603,
-  failed = -32000,        -- the request makes sense, and failed: data.kind as of errors in scripts
+  failed = -32000,        -- the request is valid, and failed: data.kind as in errors of scripts
   unauthorized = -32001,  -- no hello with the token yet
-  refused = -32002,       -- not allowed by this server, or beyond a limit
+  refused = -32002,       -- not permitted by this server, or beyond a limit
 }
 
 local Failure = {}
@@ -20,9 +20,9 @@ function failure.raise(kind, format, ...)
   error(setmetatable({code = failure[kind], message = in_utf8(message)}, Failure), 0)
 end
 
---- What a function raised, as the error of a response.
+--- Converts a value raised by a function to the error of a response.
 ---@param problem any
----@param kind? string  code of errors that were raised otherwise; "failed" by default
+---@param kind? string  code of all other errors; "failed" by default
 function failure.of(problem, kind)
   if getmetatable(problem) == Failure then return {code = problem.code, message = problem.message, data = problem.data} end
   local ours = debug.getmetatable(problem) == error_value

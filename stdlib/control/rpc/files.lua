@@ -1,4 +1,4 @@
---- Files that JSON-RPC clients may name: none, unless the server has a folder; then those below it, wherever links lead.
+--- Files that JSON-RPC clients may name: none, unless the server has a folder; then those below it, after resolving links.
 local canonical = require "clench.canonical"
 local described = require "clench.described"
 local failure = require "clench.control.rpc.failure"
@@ -11,11 +11,11 @@ local known = {
   ["world.save"] = {"path"}, ["world.save_as"] = {"path"}, ["world.save_image"] = {"path"}, ["file.check"] = {"path"}, ["file.convert"] = {"from", "to"},
   ["grasp.load_virtual"] = {"path"}, ["grasp.save_virtual"] = {"path"},
 }
--- these take no options of readers
+-- these have no options for readers
 local has_no_reader = {["world.save"] = true, ["world.save_as"] = true, ["world.save_image"] = true, ["grasp.load_virtual"] = true, ["grasp.save_virtual"] = true}
-local endings = {["world.save_as"] = ".wld", ["world.save_image"] = ".png"}  -- that the command appends to names without one
+local endings = {["world.save_as"] = ".wld", ["world.save_image"] = ".png"}  -- endings that the command appends to names without one
 
--- a parameter of such a name is taken for a path in any other command, which is refused
+-- a parameter of such a name is treated as a path in any other command, which is refused
 local suspicious = {path = true, paths = true, file = true, files = true, folder = true, root = true}
 
 local function names_files(command)
@@ -31,7 +31,7 @@ local function leads_out(folder, whole)
   return canonical(whole):sub(1, #root + 1) ~= root .. "/"
 end
 
--- a path below the folder, as the client wrote it: relative, and without ".."; with the folder of meshes that would be written beside it
+-- a path below the folder, as written by the client: relative, and without ".."; also checks the folder of meshes that would be written next to it
 local function path_below(folder, name, path)
   if type(path) ~= "string" or path == "" then failure.raise("params", "%s: expected the name of a file below the server's folder", name) end
   local is_outside = path:sub(1, 1) == "/" or path:find "[%z\n]" ~= nil
@@ -42,17 +42,17 @@ local function path_below(folder, name, path)
   return whole
 end
 
--- options of a reader: what the file names must lie below the folder, too
+-- options of a reader: files that are named in the file must lie below the folder, too
 local function confined_options(server, name, given)
   local options = {root = server.folder, confine = server.folder}
   for key, value in pairs(type(given) == "table" and given or {}) do
-    if key == "root" or key == "confine" or key == "folder" or key == "package" then failure.raise("refused", "%s: options.%s is the server's", name, key) end
+    if key == "root" or key == "confine" or key == "folder" or key == "package" then failure.raise("refused", "%s: options.%s is chosen by the server", name, key) end
     options[key] = value
   end
   return options
 end
 
--- is the world saved without a path, in the file that it has below the folder?
+-- is the world saved without a path, to its own file, which is below the folder?
 local function has_own_file(server, name, args)
   local path = server.session.path
   return name == "world.save" and args.path == nil and path ~= nil and not leads_out(server.folder, path)
@@ -64,7 +64,7 @@ function files.confine(server, command, args)
   if name:find "^sensors%.connect_" then failure.raise("refused", "%s: devices are connected by the program of the server only", name) end
   if not names_files(command) then return args end
   if not server.folder then failure.raise("refused", "%s: this server reads and writes no files (it was started without a folder)", name) end
-  if not known[name] then failure.raise("refused", "%s: commands of scripts that name files are not for clients", name) end
+  if not known[name] then failure.raise("refused", "%s: a client cannot run commands that scripts have added and that name files", name) end
   if has_own_file(server, name, args) then return args end
   local out = {}
   for key, value in pairs(args) do out[key] = value end
@@ -79,10 +79,10 @@ end
 
 local planners = {primitive = true, sample = true, antipodal = true, random = true, anneal = true, loop = true, guided = true}
 
---- Checks that a planner is one whose options, as they are given, name no files.
+--- Checks that a planner is known, and that its options name no files.
 function files.check_planner(planner, options)
   if not planners[planner] then failure.raise("params", "planner: expected primitive, sample, antipodal, random, anneal, loop or guided, got %s", described(planner)) end
-  if options.root ~= nil or type(options.primitives) == "string" then failure.raise("refused", "options of a planner name no files") end
+  if options.root ~= nil or type(options.primitives) == "string" then failure.raise("refused", "options of a planner must not name files") end
 end
 
 return files

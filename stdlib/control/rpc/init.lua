@@ -1,4 +1,4 @@
---- JSON-RPC 2.0 for clients of a server: hello, then all methods. Notifications and answers of long requests may come between answers.
+--- JSON-RPC 2.0 for clients of a server: hello, then all methods. Notifications, and answers to long requests, may come between other answers.
 local commands = require "clench.control.rpc.commands"
 local shown = require "clench.described"
 local failure = require "clench.control.rpc.failure"

@@ -1,9 +1,9 @@
---- Jobs of JSON-RPC clients: searches, and commands that take long. Each has a number; its client hears of its states and events.
+--- Jobs of JSON-RPC clients: searches and long commands. Each has a number; its client is notified of its states and events.
 local failure = require "clench.control.rpc.failure"
 local files = require "clench.control.rpc.files"
 local jobs = {}
 
-local max_jobs = 100  -- that a server keeps, those that are over among them
+local max_jobs = 100  -- maximum number that a server keeps, including those that are over
 
 local function number_of(context, number)
   return context.server.jobs[number] or failure.raise("params", "job: there is no job %s", tostring(number))
@@ -17,7 +17,7 @@ end
 
 local is_over = {done = true, failed = true, stopped = true}
 
--- makes place for one more job: of those that are over, the oldest is forgotten
+-- makes space for one more job: removes the oldest of those that are over
 local function make_place(server)
   local kept, oldest = 0, nil
   for number, one in pairs(server.jobs) do
@@ -50,7 +50,7 @@ local function watch(context, number, kept, on_end)
   end)
 end
 
---- Takes a job into the list of the server.
+--- Adds a job to the list of the server.
 ---@return integer number
 function jobs.keep(context, job, on_end)
   local server = context.server

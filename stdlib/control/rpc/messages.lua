@@ -8,7 +8,7 @@ local messages = {}
 local max_batch = 1000  -- requests
 local null = clench.json.null
 
---- Result of a request that is not answered, as its client has cancelled it.
+--- Result of a request that is not answered, because its client has cancelled it.
 messages.no_answer = {}
 
 -- is it [...], and not {...}?
@@ -94,7 +94,7 @@ local function has_long(message, is_long)
   return false
 end
 
--- the message of a line; what is not UTF-8 could not be sent back, as the id of a response for instance
+-- the message of a line; text that is not UTF-8 could not be sent back, for instance as the id of a response
 local function decoded(line)
   local valid, at = utf8.len(line)
   if not valid then failure.raise("parse", "byte %d is not UTF-8", at) end
@@ -110,7 +110,7 @@ local function serve_in_turns(message, line, answerer)
   end)
 end
 
---- Answers a line. Lines with long requests are answered in a task of their own, while others are served.
+--- Answers a line. Lines with long requests are answered in separate tasks, while other lines are served.
 ---@param line string
 ---@param answerer table  with these functions:
 ---  reply(text: string?)  sends the answer, if there is one
@@ -126,7 +126,7 @@ function messages.serve(line, answerer)
   end
   if has_long(message, answerer.is_long) then
     clench.loop.spawn(function() answerer.reply(respond_to_all(message, answerer.call, line, no_pause)) end)
-    return coroutine.yield()  -- it begins before the next request of anyone is served
+    return coroutine.yield()  -- it begins before the next request of any client is served
   end
   if answerer.hold and is_list(message) and #message > 1 then return serve_in_turns(message, line, answerer) end
   answerer.reply(respond_to_all(message, answerer.call, line, no_pause))

@@ -1,4 +1,4 @@
---- Methods of clients by name: those of the server, and the commands of its session.
+--- Methods that clients can call, by name: those of the server, and the commands of its session.
 local arguments = require "clench.session.arguments"
 local commands = require "clench.control.rpc.commands"
 local shown = require "clench.described"
@@ -29,7 +29,7 @@ function methods.names(session)
   return names
 end
 
---- Does a method take so long that it runs as a job?
+--- Is a method so long that it runs as a job?
 function methods.is_long(session, name)
   local command = not own[name] and commands.find(session, name)
   return command and commands.is_long(command) or false
@@ -50,7 +50,7 @@ local function check_permitted(client, name, method)
   end
 end
 
---- The result of a request whose form is right.
+--- The result of a request that is well-formed.
 ---@param suggests boolean  may an error show names of other methods?
 function methods.call(context, name, params, suggests)
   local method = own[name]

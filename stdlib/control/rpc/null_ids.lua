@@ -1,4 +1,4 @@
---- Requests whose id is null, which decoded objects do not tell from requests without an id, that is, notifications.
+--- Finds requests whose id is null: decoded objects do not distinguish these from notifications, which have no id.
 
 -- the end of the string that begins at a quote
 local function end_of_string(line, at)

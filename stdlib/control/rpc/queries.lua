@@ -1,4 +1,4 @@
---- Read-only methods of JSON-RPC: what a world and its bodies and robots are, by address.
+--- Read-only methods of JSON-RPC: fields and queries of a world and of its bodies and robots, by address.
 local arguments = require "clench.session.arguments"
 local described = require "clench.described"
 local failure = require "clench.control.rpc.failure"
@@ -7,7 +7,7 @@ local queries = {}
 
 local function world_of(context) return context.session.world or failure.raise("failed", "no world is open") end
 
--- a body or robot of an address; nil stays nil
+-- the body or robot with an address; nil for nil
 local function find(context, address) return address ~= nil and arguments.find(context.session, address) or nil end
 
 local function find_robot(context, address) return arguments.find_robot(context.session, address) end
@@ -19,20 +19,20 @@ local link = {name = "link", type = "body", text = "address of a link"}
 
 local function add(name, text, parameters, run) queries[#queries + 1] = {name = name, text = text, parameters = parameters, run = run} end
 
--- the thing of an address: "" or nothing is the world
+-- the body or robot with an address; the world for "" or nil
 local function thing_of(context, address)
   if address == nil or address == "" then return world_of(context) end
   return find(context, address)
 end
 
--- a JSON object where a list is expected
+-- rejects a JSON object if a list is expected
 local function check_list(name, value)
   if type(value) ~= "table" or #value == 0 and next(value) ~= nil then failure.raise("params", "%s: expected a list, got %s", name, described(value)) end
 end
 
 local function field_of(thing, field)
-  local value = thing[field]  -- an error names what is near
-  if type(value) == "function" then failure.raise("params", "%s.%s is a method, and no field", clench.type(thing), field) end
+  local value = thing[field]  -- an error suggests similar names
+  if type(value) == "function" then failure.raise("params", "%s.%s is a method, not a field", clench.type(thing), field) end
   return value
 end
 
@@ -78,7 +78,7 @@ local function velocity_of(body)
   return {linear = velocity.linear, angular = velocity.angular}
 end
 
---- The state of a world: time, and what moves in it.
+--- The state of a world: its time, and the state of everything that can move.
 function queries.state(world)
   local bodies, robots = {}, {}
   for i, body in ipairs(world.objects) do bodies[i] = {body = body, pose = body.pose, velocity = velocity_of(body)} end
@@ -106,14 +106,14 @@ add("world.list", "Addresses of bodies and robots, and a text that is equal for 
   return {robots = world.robots, objects = world.objects, obstacles = world.obstacles, bodies = world.bodies, scene = scene_key(world)}
 end)
 
--- two things, of which either may be left out
+-- two bodies or robots, either of which may be absent
 local function pair_of(context, args)
   local a, b = find(context, args.a), find(context, args.b)
   if a == nil then return b end
   return a, b
 end
 
---- Every contact once: of the two bodies that list it, the first in the world.
+--- Every contact once: by the first of the two bodies that list it.
 function queries.contacts(world)
   local out, seen = {}, {}
   for _, body in ipairs(world.bodies) do
@@ -125,7 +125,7 @@ function queries.contacts(world)
   return out
 end
 
-add("world.contacts", "Contacts between two things, of one, or of all.", {a, b}, function(context, args)
+add("world.contacts", "Contacts between two bodies or robots, of one, or of all.", {a, b}, function(context, args)
   local world = world_of(context)
   if args.a == nil and args.b == nil then return queries.contacts(world) end
   return world:contacts(pair_of(context, args))
@@ -140,16 +140,16 @@ add("world.distance", "Distance of two things [m], and the closest points.", {a,
   return {distance = distance, on_a = on_a, on_b = on_b}
 end)
 
-add("world.raycast", "What a ray meets first; null: nothing.",
+add("world.raycast", "First hit of a ray; null if there is none.",
     {{name = "origin", type = "vec3", unit = "m", text = "first point"}, {name = "direction", type = "vec3", text = "of any length"},
-     {name = "reach", type = "number", optional = true, min = 0, unit = "m", text = "how far it goes"}},
+     {name = "reach", type = "number", optional = true, min = 0, unit = "m", text = "longest distance of a hit; by default unlimited"}},
     function(context, args) return world_of(context):raycast(args.origin, args.direction, args.reach) end)
 
 add("world.energy", "Energy of all objects and robots [J].", {}, function(context) return world_of(context):energy() end)
 add("world.momentum", "Momentum of all objects and robots.", {}, function(context) return world_of(context):momentum() end)
 add("world.hash", "Equal for worlds in the same state.", {}, function(context) return world_of(context):hash() end)
 
-add("world.average_contacts", "What presses on each of some bodies after the last step.",
+add("world.average_contacts", "Resultant contact force on each of the given bodies in the last step, and its center.",
     {{name = "links", type = "table", text = "addresses"}}, function(context, args)
       local links = arguments.find_all(context.session, "links", args.links)
       for i, thing in ipairs(links) do links[i] = arguments.find_body(context.session, thing) end
@@ -165,10 +165,10 @@ add("robot.mass_matrix", "Mass matrix of the DOFs.", {robot}, function(context, 
 add("robot.bias_forces", "Efforts that balance gravity, velocities and springs.", {robot},
     function(context, args) return find_robot(context, args.robot):bias_forces() end)
 add("robot.ik", "DOFs that bring a link to a pose.",
-    {robot, link, {name = "pose", type = "pose", text = "of the link in the world"}, {name = "options", type = "table", optional = true, text = "of hand:ik"}},
+    {robot, link, {name = "pose", type = "pose", text = "of the link in the world"}, {name = "options", type = "table", optional = true, text = "options of hand:ik"}},
     function(context, args) return find_robot(context, args.robot):ik(find(context, args.link), args.pose, args.options) end)
 
-add("session.info", "What the session holds.", {}, function(context)
+add("session.info", "Contents of the session: current hand and object, selection, path of the world.", {}, function(context)
   local session = context.session
   return {hand = session.hand, object = session.object, selection = session.selection, path = session.path, is_modified = session:is_modified(),
           commands_done = #session.history.done}

@@ -1,10 +1,10 @@
---- Control loops of JSON-RPC clients: efforts or targets in, a step, the state out, in one round trip. Steps are not undone: a client that
---- steps moves the world as a script beside the session does.
+--- Control loops of JSON-RPC clients: one request sets efforts or targets, makes a step, and returns the state. Steps cannot be undone: a client that
+--- steps moves the world like a script, outside of the session's commands.
 local arguments = require "clench.session.arguments"
 local failure = require "clench.control.rpc.failure"
 local queries = require "clench.control.rpc.queries"
 
--- of simulated time, and of steps, in one request, during which no other client is served
+-- maximum simulated time, and number of steps, of one request, during which no other client is served
 local max_seconds, max_steps = 0.1, 1000
 
 -- calls apply(robot, values) for each robot of {address: values}

@@ -1,4 +1,4 @@
---- What JSON-RPC clients subscribe to: events, ordered and none lost, and snapshots, of which only the latest counts.
+--- Subscriptions of JSON-RPC clients: to events, in order and without loss, and to snapshots, of which only the latest is sent.
 local described = require "clench.described"
 local failure = require "clench.control.rpc.failure"
 local queries = require "clench.control.rpc.queries"
@@ -18,7 +18,7 @@ local function new_number(context)
   return client.subscription_count
 end
 
--- listens to a world, and to the one that takes its place
+-- listens to a world, and to the one that replaces it
 local function follow_world(session, event, f)
   local handle, world
   local function attach()
@@ -57,12 +57,12 @@ end
 
 local function snapshot_text(world, parts) return world and clench.json.encode(values.of(snapshot_of(world, parts))) or "null" end
 
--- sends a snapshot to all subscribers of a group, where it differs from the last one
+-- sends a snapshot to the subscribers of a group whose last one differs from it
 local function send_snapshots(server, group)
   local text = snapshot_text(server.session.world, group.parts)
   for _, subscriber in ipairs {table.unpack(group.subscribers)} do
     local client = subscriber.client
-    -- a client that still receives one is sent a later one
+    -- a client that has not yet received the last one is sent a later one
     if client.port.queued == 0 and text ~= subscriber.last then
       subscriber.last = text
       client:send(('{"jsonrpc":"2.0","method":"snapshot","params":{"subscription":%d,"value":%s}}\n'):format(subscriber.number, text))
@@ -104,7 +104,7 @@ end
 
 local subscriptions = {}
 
---- Ends all subscriptions of a client that has gone.
+--- Ends all subscriptions of a client that has disconnected.
 function subscriptions.drop(client)
   for _, stop in pairs(client.subscriptions or {}) do stop() end
   client.subscriptions = {}
@@ -114,7 +114,7 @@ subscriptions.methods = {
   {name = "subscribe", reads = true, text = "Sends each event of a kind as a notification \"event\": in order, and none is lost.",
    parameters = {{name = "event", type = "string", text = "contact, contact_lost, limit (of the running world); changed, diagnostic, result (of the session)"}}, run = subscribe},
   {name = "subscribe_state", reads = true, text = "Sends the state of the world as a notification \"snapshot\" whenever it has changed, as of world.state.",
-   parameters = {{name = "rate", type = "number", min = 0.01, max = 1000, default = 30, unit = "Hz", text = "at most so often"},
+   parameters = {{name = "rate", type = "number", min = 0.01, max = 1000, default = 30, unit = "Hz", text = "maximum rate"},
                  {name = "poses", type = "boolean", default = false, text = "true: with the poses of all bodies, seven numbers each: x y z [m], quaternion w x y z"},
                  {name = "contacts", type = "boolean", default = false, text = "true: with all contacts, as of world.contacts"}}, run = subscribe_state},
   {name = "unsubscribe", reads = true, text = "Ends a subscription.", parameters = {{name = "subscription", type = "integer", text = "its number"}}, run = function(context, args)

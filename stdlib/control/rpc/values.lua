@@ -1,4 +1,4 @@
---- Values as JSON-RPC carries them: bodies and robots as addresses, all else complete. Numbers that JSON has no word for are null.
+--- Values in the form of JSON-RPC: bodies and robots as addresses, all others complete. Numbers that JSON cannot represent are null.
 local in_utf8 = require "clench.in_utf8"
 local values = {}
 

@@ -1,4 +1,4 @@
---- Contacts as the text protocol reports them: of one body, in its contact frames, with the forces on it.
+--- Contacts in the form of the text protocol: those of one body, in its contact frames, with the forces on it.
 local lists = require "clench.control.text.lists"
 local units = require "clench.control.text.units"
 
@@ -13,13 +13,13 @@ local function axes_of(n)
   return tx, n:cross(tx)
 end
 
--- a contact seen from a body: place in its frame [m], wrench in the contact frame [N, N m]
+-- a contact as of one of its bodies: position in the body's frame [m], wrench in the contact frame [N, N m]
 local function seen_from(body, contact)
   local is_first = contact.body == body
   local to_body = body.pose:inverse()
   local normal = is_first and contact.normal or -contact.normal
   local force = is_first and contact.force or -contact.force
-  -- contact.point lies on the first body; the second one is as far from it as the gap
+  -- contact.point lies on the first body; the surface of the second one is away from it by the gap
   local point = is_first and contact.point or contact.point - contact.normal * contact.gap
   local n, f = to_body:rotate(normal), to_body:rotate(force)
   local tx, ty = axes_of(n)
@@ -34,7 +34,7 @@ end
 
 local function millimeters(p) return line {p.x * 1e3, p.y * 1e3, p.z * 1e3} end
 
--- lines of the contacts of one body; kinds: how many data items of each, 1 to 3
+-- lines of the contacts of one body; kinds: number of data items of each, 1 to 3
 local function report(reply, body, kinds, threshold)
   local contacts = contacts_of(body)
   reply[#reply + 1] = tostring(#contacts)

@@ -20,7 +20,7 @@ function commands.computeNewVelocities(world, words)
   return {world.report.failures == before and "0" or "1"}
 end
 
--- render: whoever shows the world draws it again
+-- render: listeners that display the world draw it again
 function commands.render(_, words, session)
   words:done()
   session:emit("changed", {command = "render"})

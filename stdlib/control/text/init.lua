@@ -16,7 +16,7 @@ for _, group in ipairs {"contacts", "robots", "dynamics"} do
 end
 for name, run in pairs(old.commands) do commands[name] = run end
 
--- the command that the words begin with
+-- the command with which the words begin
 local function command_of(words)
   local name = words:next()
   local seconds = old.second_words[name]
@@ -27,7 +27,7 @@ local function command_of(words)
   return commands[name] or words.fail("there is no command '%s'", words.command)
 end
 
--- state: what is kept of a client between its lines
+-- state: data of a client that are kept between its lines
 local function run(session, state, line)
   local words = new_words(line)
   if #words == 0 then return {} end

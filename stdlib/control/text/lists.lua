@@ -1,10 +1,10 @@
---- Lists of bodies and robots as the text protocol writes them: `ALL`, or a count and so many indices from 0.
+--- Lists of bodies and robots in the form of the text protocol: `ALL`, or a count followed by that number of indices, from 0.
 local lists = {}
 
 ---@param kind string  "body" or "robot"
 ---@param all table[]  the bodies or robots of the world
 ---@return table[] chosen
----@return string[] reply  of a list of all: a line with their number
+---@return string[] reply  for `ALL`: a line with their number
 function lists.read(words, kind, all)
   if words:peek() == "ALL" then
     words:next()

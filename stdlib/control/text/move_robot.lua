@@ -1,9 +1,9 @@
---- Moves of robots as the text protocol has them: each DOF by its own step, until the first contact.
+--- Moves of robots as in the text protocol: each DOF by its own step size, until the first contact.
 local units = require "clench.control.text.units"
 
 local function clamp(x, low, high) return math.max(low, math.min(high, x)) end
 
--- Moves DOFs from where they are, each by its own step, until the first contact: a DOF of few steps arrives before the others.
+-- Moves DOFs from their present values, each by its own step size, until the first contact: a DOF with few steps arrives before the others.
 local function move(robot, goals, steps)
   local start, arrivals, times = robot.dofs, {}, {}
   for i, goal in ipairs(goals) do
@@ -30,7 +30,7 @@ end
 ---@param world world
 ---@param robot robot  of it
 ---@param values number[]
----@param steps number[]  of which only the proportions matter
+---@param steps number[]  only their proportions matter
 ---@return string[] reply  a line per DOF with the actual value
 return function(world, robot, values, steps)
   local factors = units.of_dofs(world, robot)

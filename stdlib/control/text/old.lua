@@ -1,4 +1,4 @@
---- The dialect of version 0.9: `step dynamics`, `get contacts`, and `setDOFVals`, whose numbers follow on lines of their own.
+--- The dialect of version 0.9: `step dynamics`, `get contacts`, and `setDOFVals`, whose numbers follow on separate lines.
 local contacts = require "clench.control.text.contacts"
 local dynamics = require "clench.control.text.dynamics"
 local lists = require "clench.control.text.lists"
@@ -6,7 +6,7 @@ local move_robot = require "clench.control.text.move_robot"
 local new_words = require "clench.control.text.words"
 local old = {}
 
--- step dynamics: the time that has passed
+-- step dynamics: replies with the time that has passed
 local function step_dynamics(world, words, session)
   local reply = dynamics.moveDynamicBodies(world, words, session)
   world:solve_velocities(tonumber(reply[1]))
@@ -25,7 +25,7 @@ end
 
 local function numbers_needed(robot) return 1 + 2 * #robot.dofs end
 
--- moves the robots by the numbers that have been collected
+-- moves the robots according to the collected numbers
 local function move(pending)
   local words, reply = new_words("setDOFVals " .. table.concat(pending.numbers, " ")), {}
   words:next()
@@ -55,8 +55,8 @@ local function set_dof_values(world, words, _, state)
   return {}
 end
 
---- Takes a line that belongs to a setDOFVals that has begun.
----@return string[]? reply  nil: the line is a command of its own, and the one before was left unfinished
+--- Processes a line that continues a setDOFVals.
+---@return string[]? reply  nil: the line is another command, and the previous one was left unfinished
 function old.continue(state, words)
   local pending = state.pending
   if not tonumber(words[1]) then
@@ -64,7 +64,7 @@ function old.continue(state, words)
     return nil
   end
   for _, word in ipairs(words) do pending.numbers[#pending.numbers + 1] = word end
-  -- a wrong number of DOFs is reported at once: how many numbers follow would not be known
+  -- a wrong number of DOFs is reported at once, since the number of values that follow would be unknown
   local first = #pending.robots == 1 and math.tointeger(tonumber(pending.numbers[1]))
   if first ~= nil and first ~= false and first ~= #pending.robots[1].dofs then
     state.pending = nil

@@ -61,7 +61,7 @@ function commands.setDOFForces(world, words)
   return reply
 end
 
--- moveToContacts: the current hand goes ahead until it touches something, at most 30 mm
+-- moveToContacts: the current hand moves along its approach direction until it touches something, at most 30 mm
 function commands.moveToContacts(world, words, session)
   words:done()
   local hand = session.hand or words.fail "Robot does not exist."

@@ -1,7 +1,7 @@
 --- Units of the original's text protocol: mm, rad, N and N m; efforts of motors in 1e-6 N and 1e-9 N m, as in its robot files.
 local units = {}
 
---- A number as text that reads back within 1e-9 of its size.
+--- A number as text with a relative precision of 1e-9.
 function units.text(x) return ("%.9g"):format(x + 0.0) end
 
 --- Numbers in one line.
@@ -16,7 +16,7 @@ function units.add_values(reply, values, factors)
   for i, value in ipairs(values) do reply[#reply + 1] = units.text(value * factors[i]) end
 end
 
--- of each DOF of a robot, whether it slides.
+-- For each DOF of a robot: does it slide?
 local function slides(robot)
   local list = {}
   for i in ipairs(robot.dofs) do list[i] = false end

@@ -1,4 +1,4 @@
---- The words of a line of the text protocol, taken one by one. What is wrong raises {reply = text}.
+--- The words of a line of the text protocol, read one by one. Invalid words raise {reply = text}.
 local Words = {}
 Words.__index = Words
 
@@ -31,7 +31,7 @@ function Words:index(what)
   return number or Words.fail("%s: expected %s below 2^63", self.command, what or "an index")
 end
 
---- So many numbers.
+--- A given number of numbers.
 function Words:numbers(count, what)
   if count > #self - self.at then Words.fail("%s: expected %d numbers (%s), got %d", self.command, count, what, #self - self.at) end
   local list = {}
@@ -39,7 +39,7 @@ function Words:numbers(count, what)
   return list
 end
 
---- There must be no more words.
+--- Rejects further words.
 function Words:done()
   local word = self:next()
   if word then Words.fail("%s: one word too many: %s", self.command, shown(word)) end

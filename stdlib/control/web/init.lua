@@ -11,7 +11,7 @@ local socket = require "clench.control.web.socket"
 local token = require "clench.control.token"
 local web = {}
 
-local page_seconds = 60  -- in which a browser takes the page
+local page_seconds = 60  -- time in which a browser must receive the page
 
 local words_of = {[101] = "Switching Protocols", [200] = "OK", [400] = "Bad Request", [403] = "Forbidden", [404] = "Not Found", [405] = "Method Not Allowed",
                   [426] = "Upgrade Required", [431] = "Request Header Fields Too Large", [500] = "Internal Server Error", [503] = "Service Unavailable",
@@ -24,7 +24,7 @@ local function response(status, kind, body, fields)
     status, words_of[status], kind, #body, common, more[status] or "", fields or "") .. body
 end
 
---- The response to a browser that is one too many.
+--- The response to a browser when the server has its maximum number of clients.
 function web.busy(words) return response(503, "text/plain", words) end
 
 local function refuse(client, status, reason)
@@ -103,7 +103,7 @@ end
 -- the name of a field "Host", without the port
 local function host_of(field) return field:match "^%[(.*)%]" or field:match "^[^:]*" end
 
--- status and reason of a refusal. Without a token the name of the host keeps out pages whose own name leads to this machine.
+-- status and reason of a refusal. Without a token, the name must be one of this machine: a web site whose name resolves to it cannot connect.
 local function fault_of(server, asked)
   if server.token and not token.equal(asked.parameters.token, server.token) then return 403, "the token is missing or not that of this server" end
   if not server.token and not is_loopback(host_of(asked.fields.host):lower()) then return 403, "Host: expected a name of this machine" end
@@ -132,7 +132,7 @@ function web.serve(server, client)
   return true
 end
 
--- drops a client of a WebSocket that does not answer a ping; one that is silent is sent a ping
+-- sends a ping to a WebSocket client that is silent, and disconnects it if it does not answer
 local function check_socket(client, now, timeout)
   if now - math.max(client.heard, client.pinged or 0) <= timeout then return end
   if client.pinged and client.pinged > client.heard then return client:close "no answer to a ping" end
@@ -153,7 +153,7 @@ local function check_silent(server)
   end
 end
 
---- Watches clients that are silent.
+--- Disconnects clients that remain silent.
 ---@return fun() # ends it
 function web.watch(server)
   local timer = loop.every(server.web.timeout / 4, function() check_silent(server) end)

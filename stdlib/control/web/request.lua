@@ -1,4 +1,4 @@
---- Requests of HTTP/1.1 (RFC 9112), read strictly: what two readers could take for different things is refused, as are bodies.
+--- Requests of HTTP/1.1 (RFC 9112), read strictly: a request that two readers could interpret differently is refused, as is one with a body.
 local request = {}
 
 request.max_head = 16384  -- [bytes]
@@ -35,7 +35,7 @@ local function lines_of(head)
   return lines
 end
 
--- path and parameters of a target; no character is escaped in any that we serve
+-- path and parameters of a target; escaped characters are not supported, since no page here needs them
 local function read_target(target)
   local path, query = target:match "^(/[%w/._-]*)%??(.*)$"
   if not path then return fault(400, "the target is no path") end

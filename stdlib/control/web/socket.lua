@@ -1,5 +1,5 @@
 --- Messages of WebSocket clients (RFC 6455), one frame at a time: unmasked, fragments joined, pings answered. A client that breaks the
---- protocol is told the code of its fault and dropped.
+--- protocol receives the code of its error and is disconnected.
 local base64 = require "clench.base64"
 local sha1 = require "clench.control.web.sha1"
 local socket = {}
@@ -25,13 +25,13 @@ function socket.message(words) return frame(text, words) end
 
 local function send(client, opcode, payload) client:send_raw(frame(opcode, payload)) end
 
---- Tells a client why it is dropped, and drops it.
+--- Sends a client the reason, and disconnects it.
 function socket.refuse(client, code, reason)
   send(client, close, string.pack(">I2", code) .. reason)
   client:finish(reason)
 end
 
---- Asks a client whether it is there.
+--- Sends a ping.
 function socket.ping(client) send(client, ping, "") end
 
 local block = 24  -- integers of eight bytes that are unmasked at a time
@@ -69,8 +69,8 @@ end
 -- a part of a message; returns the message when it is complete
 local function add_part(client, header, payload)
   local parts = client.parts
-  if header.opcode == 0 and not parts then return socket.refuse(client, 1002, "a message has no beginning") end
-  if header.opcode ~= 0 and parts then return socket.refuse(client, 1002, "a message has no end") end
+  if header.opcode == 0 and not parts then return socket.refuse(client, 1002, "a continuation without a first frame") end
+  if header.opcode ~= 0 and parts then return socket.refuse(client, 1002, "a new message before the end of the last one") end
   if header.is_last and not parts then return payload end
   parts = parts or {size = 0}
   client.parts = parts

@@ -11,7 +11,7 @@ local function go_to(hand, letter, position)
   motor.P = math.max(0, math.min(last[letter], position))
 end
 
--- verbs that move; each gets the motor's letter, and the number behind the verb
+-- commands that move; each receives the motor's letter, and the number after the command
 local motions = {
   HI = function(hand, letter) hand.is_ready = true go_to(hand, letter, 0) end,
   HOME = function(hand, letter) go_to(hand, letter, 0) end,
@@ -32,7 +32,7 @@ local function letters_of(prefix)
   return chosen
 end
 
--- the reply to a command: text, and seconds that it takes
+-- the reply to a command: its text, and its duration [s]
 local function obey(hand, command)
   local prefix, rest = command:match "^([123S]*)(.*)$"
   local chosen = letters_of(prefix)
@@ -77,14 +77,14 @@ local function serve(hand)
   end
 end
 
---- A program that plays a Barrett hand BH8-262.
+--- Simulates a Barrett hand BH8-262 on a pseudo-terminal.
 ---@param options? table
 ---@option move_time? number [s, >= 0] = 0  of each motion
----@option flip_bytes? number [0 to 1] = 0  part of the bytes in which a bit is changed
----@option lose_bytes? number [0 to 1] = 0  part of the bytes that are lost
+---@option flip_bytes? number [0 to 1] = 0  fraction of the bytes in which a bit is changed
+---@option lose_bytes? number [0 to 1] = 0  fraction of the bytes that are lost
 ---@option delay? number [s, >= 0] = 0  before each reply
 ---@option seed? integer [0 to 9007199254740992] = 1
----@return table hand # `path`, `unplug()`, `close()`; `motors`, `stops`: how often the motors were switched off
+---@return table hand # `path`, `unplug()`, `close()`; `motors`, `stops`: number of times that the motors were switched off
 ---@effect edits
 --- > simulated = clench.devices.simulated.barrett {}
 --- > line = clench.port.serial {path = simulated.path}

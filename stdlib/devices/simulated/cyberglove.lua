@@ -21,7 +21,7 @@ local function serve(glove)
   end
 end
 
--- values of sensors that the options leave out, by chance
+-- random values of sensors that the options leave out
 local function read_sensors(o)
   local given = o:raw "sensors" or {}
   if type(given) ~= "table" or #given > count then o:expected("sensors", "a list of at most 22 numbers", given) end
@@ -34,11 +34,11 @@ local function read_sensors(o)
   return sensors
 end
 
---- A program that plays a CyberGlove.
+--- Simulates a CyberGlove on a pseudo-terminal.
 ---@param options? table
 ---@option sensors? integer[]  values of sensors, 1 to 255; others are chosen by the seed
----@option flip_bytes? number [0 to 1] = 0  part of the bytes in which a bit is changed
----@option lose_bytes? number [0 to 1] = 0  part of the bytes that are lost
+---@option flip_bytes? number [0 to 1] = 0  fraction of the bytes in which a bit is changed
+---@option lose_bytes? number [0 to 1] = 0  fraction of the bytes that are lost
 ---@option delay? number [s, >= 0] = 0  before each reply
 ---@option seed? integer [0 to 9007199254740992] = 1
 ---@return table glove # `path`, `sensors`, `state` (3: ready), `unplug()`, `close()`

@@ -4,7 +4,7 @@ local new_line = require "clench.devices.simulated.line"
 local memory_size = 256
 local broadcast = 254
 
--- bit by bit, as the description of the protocol has it
+-- bit by bit, as in the specification of the protocol
 local function checksum(bytes)
   local crc = 0
   for i = 1, #bytes do
@@ -99,7 +99,7 @@ local function sync_read(line, parameters)
   end
 end
 
--- every motor appends a block to one packet as soon as it has heard those before it: without one, nothing more follows
+-- each motor appends a block to one packet after it has received those of the motors before it: if one is missing, none follows
 local function fast_sync_read(line, parameters)
   if not line.fast or #parameters < 5 then return end
   local address, size = string.unpack("<I2 I2", parameters)
@@ -139,7 +139,7 @@ local function obey(line, id, code, parameters)
   if code == 0x83 then sync_write(line, parameters) elseif code == 0x82 then sync_read(line, parameters) elseif code == 0x8A then fast_sync_read(line, parameters) end
 end
 
--- the packets among received bytes; returns what is left
+-- processes the packets among received bytes; returns the remaining bytes
 local function take_packets(line, bytes)
   while true do
     local at = bytes:find("\xFF\xFF\xFD\0", 1, true)
@@ -163,7 +163,7 @@ end
 local function serve(line)
   local waiting = ""
   while true do
-    -- a packet whose rest does not come is dropped
+    -- a packet whose remainder does not arrive is dropped
     local bytes, why = line:receive(waiting ~= "" and 0.02 or nil)
     if bytes then
       waiting = take_packets(line, waiting .. bytes)
@@ -175,16 +175,16 @@ local function serve(line)
   end
 end
 
---- A program that plays Dynamixel motors of the X series on one bus.
+--- Simulates Dynamixel motors of the X series on one bus, on a pseudo-terminal.
 ---@param options? table
----@option ids? integer[]  of the motors; 1 alone by default
+---@option ids? integer[]  of the motors; only 1 by default
 ---@option speed? number [rad/s, > 0] = 5
----@option fast? boolean = true  false: of old firmware, without fast sync read
----@option flip_bytes? number [0 to 1] = 0  part of the bytes in which a bit is changed
----@option lose_bytes? number [0 to 1] = 0  part of the bytes that are lost
+---@option fast? boolean = true  false: old firmware, without fast sync read
+---@option flip_bytes? number [0 to 1] = 0  fraction of the bytes in which a bit is changed
+---@option lose_bytes? number [0 to 1] = 0  fraction of the bytes that are lost
 ---@option delay? number [s, >= 0] = 0  before each answer
 ---@option seed? integer [0 to 9007199254740992] = 1
----@return table bus # `path`, `motors` by id, `instructions`: how often each was broadcast, `unplug()`, `close()`
+---@return table bus # `path`, `motors` by id, `instructions`: number of broadcasts of each, `unplug()`, `close()`
 ---@effect edits
 --- > simulated = clench.devices.simulated.dynamixel {ids = {1, 2}}
 --- > line = clench.port.serial {path = simulated.path}

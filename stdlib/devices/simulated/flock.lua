@@ -24,7 +24,7 @@ local function record_of(pose, mode)
   return string.char(bytes:byte(1) | 0x80) .. bytes:sub(2)
 end
 
--- one byte of a command
+-- processes one byte of a command
 local function obey(flock, state, byte)
   local code = byte:byte()
   if state.skip > 0 then
@@ -50,12 +50,12 @@ local function serve(flock)
   end
 end
 
---- A program that plays a Flock of Birds.
+--- Simulates a Flock of Birds on a pseudo-terminal.
 ---@param options? table
 ---@option birds? integer [1 to 3] = 1
 ---@option poses? pose[]  of the birds, in the frame of the transmitter; the field `poses` of the result can be changed
----@option flip_bytes? number [0 to 1] = 0  part of the bytes in which a bit is changed
----@option lose_bytes? number [0 to 1] = 0  part of the bytes that are lost
+---@option flip_bytes? number [0 to 1] = 0  fraction of the bytes in which a bit is changed
+---@option lose_bytes? number [0 to 1] = 0  fraction of the bytes that are lost
 ---@option delay? number [s, >= 0] = 0  before each record
 ---@option seed? integer [0 to 9007199254740992] = 1
 ---@return table flock # `path`, `poses`, `unplug()`, `close()`

@@ -7,7 +7,7 @@ local Line = class "simulated device"
 
 function Line:__tostring() return ("simulated %s at %s"):format(self.name, self.path) end
 
--- the bytes as they come out of the line
+-- the bytes as they leave the line
 local function distorted(self, bytes)
   if self.flip_bytes == 0 and self.lose_bytes == 0 then return bytes end
   local out = {}
@@ -31,7 +31,7 @@ function Line:send(bytes)
   self.port:send(distorted(self, bytes))
 end
 
---- Pulls the plug: the program's line is lost.
+--- Unplugs the device: the program's line is lost.
 function Line:unplug() self.port:close() end
 
 --- Ends the simulation.
@@ -42,7 +42,7 @@ Line.__close = function(self) self:close() end
 ---@param name string  "barrett"
 ---@param options? table  of the caller
 ---@param read fun(o: table): table  reads the device's own options, and returns its fields
----@param serve fun(line: table)  plays the device, in a coroutine
+---@param serve fun(line: table)  simulates the device, in a coroutine
 return function(name, options, read, serve)
   local o = new_options("devices.simulated." .. name, options or {})
   local fields = read(o)

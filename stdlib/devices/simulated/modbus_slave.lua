@@ -12,7 +12,7 @@ local function checksum(bytes)
   return string.char(crc % 256, crc // 256)
 end
 
--- function 3: registers of a block, or some of them
+-- function 3: all or some registers of a block
 local function read(blocks, address, count)
   for first, block in pairs(blocks) do
     if block.read and count > 0 and address >= first and address + count <= first + block.count then
@@ -42,9 +42,9 @@ local function size_of(bytes)
   return 8
 end
 
---- Plays a slave of Modbus RTU, until the line is unplugged.
+--- Simulates a Modbus RTU slave, until the line is unplugged.
 ---@param line table  a simulated line with the field `slave`
----@param blocks table  by address: {count = registers, read = fun(): string, write = fun(bytes: string)}; a block is written whole
+---@param blocks table  by address: {count = registers, read = fun(): string, write = fun(bytes: string)}; a block is always written completely
 ---@param update fun()  called before each answer
 return function(line, blocks, update)
   local waiting = ""

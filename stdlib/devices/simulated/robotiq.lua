@@ -2,7 +2,7 @@ local loop = clench.loop
 local modbus_slave = require "clench.devices.simulated.modbus_slave"
 local new_line = require "clench.devices.simulated.line"
 
--- brings the fingers to the present time
+-- moves the fingers to their positions at the present time
 local function update(gripper)
   local now = loop.time()
   local step = (now - gripper.time) * 255 / gripper.full_time
@@ -42,16 +42,16 @@ local function serve(gripper)
   }, function() update(gripper) end)
 end
 
---- A program that plays a Robotiq gripper of two fingers.
+--- Simulates a two-finger Robotiq gripper on a pseudo-terminal.
 ---@param options? table
 ---@option slave? integer [1 to 247] = 9
 ---@option full_time? number [s, > 0] = 0.05  from open to closed
----@option object? integer [0 to 255]  position at which closing fingers meet an object
----@option flip_bytes? number [0 to 1] = 0  part of the bytes in which a bit is changed
----@option lose_bytes? number [0 to 1] = 0  part of the bytes that are lost
+---@option object? integer [0 to 255]  position at which an object stops closing fingers
+---@option flip_bytes? number [0 to 1] = 0  fraction of the bytes in which a bit is changed
+---@option lose_bytes? number [0 to 1] = 0  fraction of the bytes that are lost
 ---@option delay? number [s, >= 0] = 0  before each answer
 ---@option seed? integer [0 to 9007199254740992] = 1
----@return table gripper # `path`, `position`, `stops`: how often the fingers were stopped, `unplug()`, `close()`
+---@return table gripper # `path`, `position`, `stops`: number of times that the fingers were stopped, `unplug()`, `close()`
 ---@effect edits
 --- > simulated = clench.devices.simulated.robotiq {}
 --- > line = clench.port.serial {path = simulated.path}

@@ -4,7 +4,7 @@ local new_line = require "clench.devices.simulated.line"
 
 local function bit(byte, number) return byte // 2 ^ number % 2 == 1 end
 
--- brings all axes to the present time
+-- moves all axes to their positions at the present time
 local function update(hand)
   local now = loop.time()
   local step = (now - hand.time) * 255 / hand.full_time
@@ -21,7 +21,7 @@ local function update(hand)
   end
 end
 
--- 0: moving, 1: some fingers met an object, 2: all, 3: all are where they should be
+-- 0: moving, 1: an object has stopped some fingers, 2: objects have stopped all, 3: all have reached their goals
 local function motion(hand)
   local met = 0
   for i, axis in ipairs(hand.axes) do
@@ -60,7 +60,7 @@ local function obey(hand, bytes)
   end
   for i, axis in ipairs(hand.axes) do
     local is_own = i == 1 or i <= 3 and bit(options, 2) or i == 4 and bit(options, 3)
-    -- without options all fingers follow the first, and the mode holds the scissor
+    -- without options all fingers follow the first, and the mode determines the scissor
     if is_own then axis.goal = bytes:byte(3 * i + 1) elseif i <= 3 then axis.goal = bytes:byte(4) end
     if axis.goal ~= axis.position then axis.state = 0 end
   end
@@ -73,16 +73,16 @@ local function serve(hand)
   }, function() update(hand) end)
 end
 
---- A program that plays a Robotiq gripper of three fingers.
+--- Simulates a three-finger Robotiq gripper on a pseudo-terminal.
 ---@param options? table
 ---@option slave? integer [1 to 247] = 9
 ---@option full_time? number [s, > 0] = 0.05  from open to closed, and of a change of the mode
----@option objects? integer[]  positions at which closing fingers A, B and C meet an object, from 0 to 255
----@option flip_bytes? number [0 to 1] = 0  part of the bytes in which a bit is changed
----@option lose_bytes? number [0 to 1] = 0  part of the bytes that are lost
+---@option objects? integer[]  positions at which objects stop closing fingers A, B and C, from 0 to 255
+---@option flip_bytes? number [0 to 1] = 0  fraction of the bytes in which a bit is changed
+---@option lose_bytes? number [0 to 1] = 0  fraction of the bytes that are lost
 ---@option delay? number [s, >= 0] = 0  before each answer
 ---@option seed? integer [0 to 9007199254740992] = 1
----@return table gripper # `path`, `axes` with `position` and `goal`, `mode`, `stops`: how often it was stopped, `unplug()`, `close()`
+---@return table gripper # `path`, `axes` with `position` and `goal`, `mode`, `stops`: number of times that it was stopped, `unplug()`, `close()`
 ---@effect edits
 --- > simulated = clench.devices.simulated.robotiq_3f {}
 --- > line = clench.port.serial {path = simulated.path}

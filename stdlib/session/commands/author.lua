@@ -1,4 +1,4 @@
---- Commands that author grasps: from a pregrasp in phases to the grasp, a tug test, and names and notes that files keep.
+--- Commands that author grasps: from a pregrasp in phases to the grasp, a tug test, and names and notes that are stored in files.
 local arguments = require "clench.session.arguments"
 local conditions = require "clench.session.conditions"
 local phases = require "clench.session.phases"
@@ -38,7 +38,7 @@ local function authored(session)
   return session.authored
 end
 
--- the place of the grasp with a name; one after the last if there is none
+-- the index of the grasp with a name; one beyond the last if there is none
 local function place_of(grasps, name)
   for i, grasp in ipairs(grasps) do
     if grasp.labels.name == name then return i end
@@ -56,7 +56,7 @@ local function new_grasp(session, args)
   return grasp
 end
 
--- in a thread, with copies
+-- runs in a thread, with copies
 local function tug(hand, object, options)
   local clench = require "clench"
   options.hand, options.object = hand, object

@@ -43,7 +43,7 @@ local function names_of(list) return (lines_for(list, script.name_of):gsub("\n",
 local function collision_calls(session, args)
   local list = args.body == nil and session.selection or arguments.find_several(session, args.body)
   if args.other ~= nil then
-    if #list ~= 1 then raise(("session: body.collisions: other: expected one body beside it, got %d"):format(#list)) end
+    if #list ~= 1 then raise(("session: body.collisions: other: expected exactly one body as the first of the pair, got %d"):format(#list)) end
     list = {list[1], arguments.find(session, args.other)}
   end
   local on = args.on

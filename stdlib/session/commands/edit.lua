@@ -1,5 +1,5 @@
 --- Commands of the Edit menu: the history of the session.
--- the first world is no step that a user could mean
+-- creating the first world is not a step that a user would undo
 local function undoable(session)
   local last = session.history.done[#session.history.done]
   return session.gesture ~= nil or last ~= nil and last.before ~= nil and last.before.world ~= nil, "there is nothing to undo"

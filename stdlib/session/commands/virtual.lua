@@ -1,4 +1,4 @@
---- Commands on the virtual contacts of the current hand: where it is meant to touch.
+--- Commands on the virtual contacts of the current hand: the points at which it is intended to touch.
 local arguments = require "clench.session.arguments"
 local conditions = require "clench.session.conditions"
 local raise = require "clench.raise"

@@ -6,7 +6,7 @@ local units = require "clench.view.units"
 
 local gray, orange = {0.5, 0.5, 0.5}, {0.84, 0.37, 0}
 
--- the first of grasp_1, grasp_2, … that is free
+-- the first of grasp_1, grasp_2, … that is not used
 local function free_name(session)
   local taken = {}
   for _, grasp in ipairs(session.authored or {}) do taken[grasp.labels.name or ""] = true end
@@ -57,10 +57,10 @@ local function draw_pregrasp(view, ui, state)
   end)
 end
 
--- a row of the list; true: the phase is to be dropped
+-- a row of the list; returns true if the phase is to be removed
 local function draw_phase(view, ui, phase, i)
   local dropped = ui:button("x##phase" .. i)
-  ui:tooltip "Drop this phase"
+  ui:tooltip "Remove this phase"
   ui:same_line()
   ui:text(("%d  %s%s"):format(i, phase.kind, phase.kind == "approach" and " by" or phase.kind == "posture" and (" of %d DOFs"):format(#phase.dofs) or ""))
   if phase.kind ~= "approach" then return dropped end
@@ -74,7 +74,7 @@ local function draw_phase(view, ui, phase, i)
 end
 
 local function draw_phases(view, ui, state)
-  heading(ui, "Closing phases", "From the pregrasp to the grasp; contact stops each of them.")
+  heading(ui, "Closing phases", "From the pregrasp to the grasp; each phase stops at contact.")
   local dropped
   for i, phase in ipairs(state.phases) do
     if draw_phase(view, ui, phase, i) then dropped = i end
@@ -95,7 +95,7 @@ local function draw_phases(view, ui, state)
   ui:tooltip(state.pregrasp and "From the pregrasp, as one step of undo" or "From the present posture, as one step of undo")
 end
 
--- the verdict of the tug test, while nothing has moved since
+-- the verdict of the tug test, if nothing has moved since
 local function verdict_of(view, state)
   local job = state.tug_job
   if not job or job.state ~= "done" or state.tug_hash ~= view.session.world:hash() then return nil end
@@ -109,7 +109,7 @@ local function text_of_tug(view, state)
   if job.state ~= "done" then return job.state end
   local verdict = verdict_of(view, state)
   if not verdict then return "Something has moved since." end
-  if not verdict.settled.held then return "lost before the test, under the grip alone", orange end
+  if not verdict.settled.held then return "lost before the test, by the grip alone", orange end
   return ("held in %d of %d directions"):format(verdict.held, #verdict.directions), not verdict.survived and orange or {0, 0.5, 0.35}
 end
 
@@ -148,7 +148,7 @@ local function draw_notes(view, ui, state)
   ui:tooltip "Adds the present grasp to the list below; one of the same name is replaced."
 end
 
--- shows an authored grasp, and its texts in the fields
+-- shows an authored grasp, and fills the fields with its texts
 local function take(view, state, grasp)
   view:run("grasp.apply", {grasp = grasp})
   local labels = grasp.labels

@@ -1,4 +1,4 @@
---- The console: a line of Lua, and what it and the commands printed. `session`, `world`, `hand`, `object` and `view` are defined.
+--- The console: an input line of Lua, and the output of it and of commands. `session`, `world`, `hand`, `object` and `view` are defined.
 local function environment(view)
   local session = view.session
   return setmetatable({}, {__index = function(_, name)

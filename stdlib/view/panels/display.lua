@@ -1,10 +1,10 @@
---- What the picture shows beside the bodies.
+--- Options of the picture: items shown in addition to the bodies.
 local switches = {
   {"contacts", "friction cones", true}, {"transparent_objects", "transparent objects", true}, {"approach", "approach directions", false},
   {"patches", "patches of soft contacts", false}, {"ground", "floor", true},
 }
 
--- frames of what is selected
+-- coordinate frames of the selection
 local function draw_axes(ui, view)
   local on, changed = ui:checkbox("axes of the selection", view.shows_axes == true)
   if changed then view.shows_axes = on end

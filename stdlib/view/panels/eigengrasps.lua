@@ -14,7 +14,7 @@ local function set(view, hand, amplitudes, fixed, rigid)
   for i = 1, #amplitudes do
     if fixed[i] then numbers[#numbers + 1] = i end
   end
-  -- with a fixed amplitude, only the posture of the amplitudes counts
+  -- with a fixed amplitude, the posture consists of the amplitudes only
   hand:set_amplitudes(amplitudes, {keep = not (rigid or #numbers > 0), fixed = #numbers > 0 and numbers or nil})
   view.session:emit("changed", {gesture = true})
 end
@@ -52,7 +52,7 @@ local function draw(ui, view)
   draw_sliders(ui, view, hand)
   local rigid, changed = ui:checkbox("rigid", view.rigid == true)
   if changed then view.rigid = rigid end
-  ui:tooltip "The posture is what the amplitudes describe; otherwise the rest of it is kept."
+  ui:tooltip "The posture consists of the amplitudes only; otherwise the part that they do not describe is kept."
   if ui:button "Go To Origin" then go_to_origin(view, hand) end
   ui:same_line()
   button(ui, view, "Set Origin", "grasp.set_origin")

@@ -44,7 +44,7 @@ local function draw_limits(view, ui, state)
   number(view, ui, "max. force [N]", state, "max_force", {speed = 0.1, min = 0, max = 1e5, format = "%.3g"})
   ui:tooltip "Largest normal force of each contact; 0: no limit."
   state.torque_limits = ui:checkbox("torques of the motors", state.torque_limits == true)
-  ui:tooltip "Motors exert no more than they can."
+  ui:tooltip "The motors stay within their limits."
 end
 
 -- torques that the motors keep, one per DOF: the force of its tendon, if it has one
@@ -96,7 +96,7 @@ local function draw_questions(view, ui, state)
     local result = ask(view, state, "preload", {loads = loads_of(view, state), locked = state.locked or nil})
     if result and result.torques then state.torques = {table.unpack(result.torques)} end
   end
-  ui:tooltip "The smallest torques that hold the object without a load, and under the load times the factor beside, without being adjusted"
+  ui:tooltip "The smallest torques that hold the object without a load, and under the load times the factor on the right, without being adjusted"
   ui:same_line()
   ui:width(46)
   number(view, ui, "x load", state, "factor", {speed = 0.05, min = 0.01, max = 1000, format = "%.3g"})

@@ -1,11 +1,11 @@
---- Grasps of planners and of files, with small pictures; a click puts the hand there, and two can be compared.
+--- Grasps of planners and of files, with small pictures; a click moves the hand to a grasp, and two grasps can be compared.
 local compare = require "clench.view.compare"
 local dialog = require "clench.view.dialog"
 
-local width, height, most = 112, 84, 64  -- of a picture [pixels], and their number
+local width, height, most = 112, 84, 64  -- size of a picture [pixels], and maximum number of pictures
 local gray = {0.5, 0.5, 0.5}
 
--- lists of grasps: of the jobs that have found some, then of files
+-- lists of grasps: of jobs that have found some, then of files
 local function sources_of(session)
   local sources = {}
   for i, job in ipairs(session.jobs) do
@@ -48,7 +48,7 @@ local function draw_grasp(view, ui, source, state, number)
     local is_new = state.uploaded[number] ~= picture
     state.uploaded[number] = picture
     if ui:image(label, picture, {width = width, height = height, changed = is_new}) then apply(view, source, number) end
-    ui:tooltip "Puts the hand into this grasp."
+    ui:tooltip "Moves the hand to this grasp."
   end
   local name = ("%s of %s"):format(label, source.name)
   local epsilon = grasp.epsilon

@@ -1,4 +1,4 @@
---- The history of the session: a click goes back or forward to a step.
+--- The history of the session: a click undoes or redoes all commands up to a step.
 local function draw(ui, view)
   local history = view.session.history
   local count = #history.done

@@ -1,4 +1,4 @@
---- What is selected: pose, DOFs and body properties, in the units of the user. A number is dragged to change it, or typed after a double click.
+--- The selection: pose, DOFs and body properties, in the units of the user. A number is dragged to change it, or typed after a double click.
 local properties = require "clench.view.properties"
 local units = require "clench.view.units"
 
@@ -25,7 +25,7 @@ local function draw_pose(ui, view, thing)
   if finished then view.session:end_gesture() end
 end
 
--- is a DOF an angle? Its first joint says
+-- is a DOF an angle? Its first joint determines this
 local function unit_of(robot, dof)
   for _, chain in ipairs(robot.chains) do
     for _, joint in ipairs(chain.joints) do

@@ -1,5 +1,5 @@
 --- Quality and contact forces over the last changes.
-local longest = 300  -- points of a curve
+local longest = 300  -- maximum number of points of a curve
 
 local function add(list, value)
   list[#list + 1] = value

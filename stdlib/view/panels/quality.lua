@@ -1,4 +1,4 @@
---- Measures of the current grasp that the user has chosen, and its contacts with their forces; both follow what moves.
+--- Measures of the current grasp that the user has chosen, and its contacts with their forces; both are updated when something moves.
 local replay = require "clench.view.replay"
 local units = require "clench.view.units"
 local gray = {0.5, 0.5, 0.5}

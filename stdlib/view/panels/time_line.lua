@@ -1,4 +1,4 @@
---- The time line: plays dynamics, which are recorded, and replays what was recorded.
+--- The time line: plays and records dynamics, and replays the recording.
 local dialog = require "clench.view.dialog"
 local replay = require "clench.view.replay"
 

@@ -40,8 +40,8 @@ static int pop_state(lua_State* L) { return add_hook(L, "pop"); }
 
 static const Entry control_methods[] = {
     {"on_step", guarded<on_step>, R"(
-Calls a function while the world runs, before each step or at intervals: fn(world, dt), with the length of the step that
-comes (an impact may cut it short), or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and states its place. They belong to the world,
+Registers a function that is called while the world runs, before each step or at intervals: fn(world, dt), with dt the length of the
+next step (an impact may cut it short) or, with an interval, the time until the next call [s]. Functions are called in the order of their registration; an error in one ends the run, and its message names the place. They belong to the world,
 not to its clones or snapshots.
 @param fn function  called after each step
 @param options? table  how often
@@ -55,10 +55,10 @@ not to its clones or snapshots.
 > handle:remove()
 > world:on_step(5)  --> error: world:on_step: expected a function, got 5)"},
     {"spawn", guarded<spawn>, R"(
-Runs a function concurrently with the world, as a coroutine: fn(task). It continues when `task.wait(seconds)` is over, when
-`task.wait_until(condition, timeout)` finds the function `condition` true and returns true, or after the time, and returns
-false, and before the next step after `task.wait_step()`. Tasks continue before steps, after the functions of on_step, in the order in which they were
-spawned; an error in one ends the run. A yield of nothing waits for the next step; a yield of anything else is an error.
+Runs a function concurrently with the world, as a coroutine: fn(task). `task.wait(seconds)` returns after that time;
+`task.wait_until(condition, timeout)` returns true as soon as the function `condition` returns true, or false after the timeout;
+`task.wait_step()` returns before the next step. Tasks continue before steps, after the functions of on_step, in the order in which they were
+spawned; an error in one ends the run. A yield without values waits for the next step; a yield of anything else is an error.
 @param fn function  function that runs as a coroutine in the time of the world
 @return table handle  `remove()` ends it; `status`: "waiting", "done", "failed" or "removed"
 @effect edits
@@ -66,7 +66,7 @@ spawned; an error in one ends the run. A yield of nothing waits for the next ste
 > world:run(0.05)
 > seen, task.status  --> 0.02, done)"},
     {"on", guarded<on>, R"(
-Has a function called after each step in which something happens: "contact", two bodies touch that did not before, fn {kind, time, a,
+Registers a function that is called after each step with an event: "contact", two bodies touch that did not before, fn {kind, time, a,
 b, point, force}, with the middle of the contact [m] and the force on b [N]; "contact_lost", {kind, time, a, b}; "limit", a
 DOF reaches an end of its range, {kind, time, robot, dof, side, value}, with its number and "low" or "high".
 @param event "contact"|"contact_lost"|"limit"  name of the event
@@ -79,9 +79,9 @@ DOF reaches an end of its range, {kind, time, robot, dof, side, value}, with its
 > #touched > 0  --> true
 > world:on("contcat", print)  --> error: world:on: event must be 'contact', 'contact_lost' or 'limit', got 'contcat')"},
     {"log", guarded<log_quantities>, R"(
-Records quantities while the world runs, from its first step on, at a rate of its time. `quantities` lists, in order: bodies, of
-whose position and velocity are recorded; robots, their DOFs, velocities and efforts; "energy", "momentum", "contacts", "failures"; and by their names
-functions(world) that give a number, true or false, a vector, or a list of numbers that stays as long. Time is noted first.
+Records quantities while the world runs, from its first step on, at a rate in simulation time. `quantities` lists, in order: bodies, for
+their position and velocity; robots, for their DOFs, velocities and efforts; "energy", "momentum", "contacts", "failures"; and, by name,
+functions(world) that return a number, a boolean, a vector, or a list of numbers of constant length. The time is recorded first.
 @param options table  what is noted, and how often
 @option rate? number [Hz, > 0] = 100  rows in a second of the world's time
 @option quantities table  bodies, robots and names in order, functions by their names
@@ -103,12 +103,12 @@ Records a run of the world for films: its state at a fixed rate of simulation ti
 > #film.times  --> 3
 > film:save "film.avi"  --> error: expected a name that ends in .html, .gif, .mp4 or .png, got 'film.avi')"},
     {"push", guarded<push_state>, R"(
-Pushes the state of the world onto a separate stack.
+Saves the state of the world on top of its stack of states.
 @return integer depth  how many lie there now
 @effect edits
 > world:push()  --> 1)"},
     {"pop", guarded<pop_state>, R"(
-Goes back to the state that was pushed last, and takes it from the stack.
+Restores the state that was pushed last, and removes it from the stack.
 @return integer depth  how many are left
 @effect edits
 > before = world:hash()
@@ -120,7 +120,7 @@ Goes back to the state that was pushed last, and takes it from the stack.
 
 const Class world_control_class{.name = "world_control",
                                 .variable = "world",
-                                .doc = "Scripts that take part while a world runs.",
+                                .doc = "Functions of scripts that a running world calls.",
                                 .methods = control_methods,
                                 .parent = &world_settings_class};
 

@@ -79,8 +79,8 @@ static int set_gains(lua_State* L) {
 
 static const Entry joint_dynamics_fields[] = {
     {"gains", guarded<get_gains>, R"(
-Position gains of its motors, one per DOF: those set by a script; otherwise those of its file; otherwise such that a DOF returns at 60
-rad/s with critical damping at its present posture. Set a list of them, or some by the names of their DOFs, with false for those of the file; nil: all of the file.
+Position gains of its motors, one per DOF: those set by a script; otherwise those of its file; otherwise chosen such that a DOF settles at 60
+rad/s with critical damping at its present posture. Set to a list, or to a table by DOF names, with false for the gains of the file; nil restores all of those.
 @type {kp: number, kd: number}[]  [N m/rad or N/m], [N m s/rad or N s/m]
 > hand.gains[1].kp  --> 1.0
 > gains = hand.gains
@@ -106,15 +106,15 @@ carries, with its base fixed. It includes the armature of the joints.
 > M = hand:mass_matrix()
 > #M, #M[1], M[1][2] == M[2][1]  --> 12, 12, true)"},
     {"bias_forces", method<[](const RobotHandle& x) { return of_robot(x).bias; }>, R"(
-Forces on its DOFs that velocities cause (Coriolis, centrifugal), and weight, unless its motors compensate that: what motors have to
-give so that no DOF accelerates, joints without springs and friction.
+Generalized forces on its DOFs due to velocities (Coriolis, centrifugal) and to weight, unless its motors compensate that: the efforts
+for which no DOF accelerates, without springs and friction of the joints.
 @return number[] forces  one per DOF [N m or N]
 @effect reads
 > hand.gravity_compensation = true
 > math.abs(hand:bias_forces()[1]) < 1e-12  --> true)"},
     {"inverse_dynamics", guarded<inverse_dynamics>, R"(
-Forces of its motors required for these accelerations of the DOFs, without contacts: mass matrix, bias forces,
-springs and viscous friction of the joints; not their dry friction.
+Motor efforts required for these accelerations of the DOFs, without contacts: from the mass matrix, bias forces,
+springs and viscous friction of the joints, but not their dry friction.
 @param accelerations number[]  one per DOF [rad/s^2 or m/s^2]
 @return number[] forces  one per DOF, as set_forces takes them [N m or N]
 @effect reads
@@ -126,7 +126,7 @@ springs and viscous friction of the joints; not their dry friction.
 
 const Class joint_dynamics_class{.name = "joint_dynamics",
                                  .variable = "hand",
-                                 .doc = "Masses and forces as a robot's DOFs feel them.",
+                                 .doc = "Masses and forces in the coordinates of a robot's DOFs.",
                                  .fields = joint_dynamics_fields,
                                  .methods = joint_dynamics_methods,
                                  .parent = &motion_class};

@@ -21,7 +21,7 @@ static int set_velocity(lua_State* L) {
   if (!lua_istable(L, 2) || lua_rawlen(L, 2) > 0)
     fail_expected({L, {}, ""}, "{linear = {x, y, z}, angular = {x, y, z}}", 2);
   if (body.world->dynamic_settings().welds.contains(body.id))
-    fail("{}: it is welded, and moves with what it is welded to", subject(L));
+    fail("{}: it is welded, and moves with the other body", subject(L));
   Table table(L, 2);
   const Twist now = body.world->twist(body.id);
   const Eigen::Vector3d linear = table.vec3("linear", now.linear),
@@ -99,15 +99,15 @@ static int weld_to(lua_State* L) {
 
 static const Entry motion_fields[] = {
     {"velocity", getter<[](const Entity& x) { return x.world->twist(x.id); }>, R"(
-Velocity of its center of mass and angular velocity, in world axes. An obstacle and the base of a robot keep theirs,
-independent of contacts. A copy; setting a table changes the keys that it contains. Setting a pose brings a body to rest.
+Velocity of its center of mass and angular velocity, in world axes. Contacts do not change the velocities of obstacles and of bases of robots.
+Returns a copy; setting a table changes the keys that it contains. Setting a pose brings a body to rest.
 @type {linear: vec3, angular: vec3}  [m/s], [rad/s]
 > flask.velocity = {linear = {0, 0, 1}}
 > flask.velocity.linear  --> (0, 0, 1)
 > flask.velocity = {linear = {0, 0, 1 / 0}}  --> error: velocity)",
      guarded<set_velocity>},
     {"surface_velocity", getter<surface_velocity>, R"(
-Surface velocity of a conveyor belt: touching bodies are carried along at this velocity, in its own frame, while it does not move. Only the component along the surface counts.
+Surface velocity of a conveyor belt, in the body frame: touching bodies are carried along at this velocity although the belt's body does not move. Only the component along the surface counts.
 @type vec3  [m/s]
 > flask.surface_velocity = {0.1, 0, 0}
 > flask.surface_velocity  --> (0.1, 0, 0)
@@ -121,8 +121,8 @@ The body that it is welded to, or nil.
 
 static const Entry motion_methods[] = {
     {"apply_force", guarded<apply_force>, R"(
-Applies a force in the next step only; forces add up. Neither an obstacle nor the base of a robot that does not
-float can be pushed.
+Applies a force in the next step only; forces add up. Obstacles and bases of robots that do not float
+cannot be pushed.
 @param force vec3  in world axes [N]
 @param point? vec3  where, in the world; its center of mass by default [m]
 @effect edits
@@ -135,8 +135,8 @@ Applies a torque in the next step only.
 > flask:apply_torque({0, 0, 0.1})
 > flask:apply_torque({0, 0, 0 / 0})  --> error: torque)"},
     {"weld", guarded<weld_to>, R"(
-Welds it to another body at their present relative pose: in runs it moves as a part of that, with its mass, until it is unwelded.
-Contacts between the two end. Their momentum is conserved, as in a perfectly inelastic collision. If one is placed by a script, they stay
+Welds it to another body at their present relative pose: in runs the two move as one rigid body, until it is unwelded.
+Contacts between the two end. Their momentum is conserved, as in a perfectly inelastic collision. If a script moves one of them, they stay
 welded at the new relative pose. Collision tests are not affected.
 @param to body|robot  a body that does not hang on it by welds; of a robot its base
 @effect edits
@@ -144,12 +144,12 @@ welded at the new relative pose. Collision tests are not affected.
 > flask.welded_to == hand.links[3]  --> true
 > flask:weld(hand.base)  --> error: is welded to)"},
     {"unweld", method<[](const Entity& x) { unweld(*x.world, x.id); }>, R"(
-Removes the weld: it continues separately, with its present velocity.
+Removes the weld: from then on it moves separately, starting at its present velocity.
 @effect edits
 > flask:weld(hand.base)
 > flask:unweld()
 > flask.welded_to  --> nil
-> flask:unweld()  --> error: is welded to nothing)"},
+> flask:unweld()  --> error: is not welded)"},
 };
 
 const Class motion_class{.name = "motion",

@@ -148,9 +148,9 @@ Forces of its motors in the last step.
 @type number[]  [N m or N]
 > hand.dof_efforts[1]  --> 0.0)"},
     {"controller", guarded<get_controller>, R"(
-Mode of its motors: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities
-that are set; "effort", they exert only the forces given by set_forces, as DOFs that no actuator of a MuJoCo
-file drives do initially ("none" is a synonym); "mixed": not all equal. `set_targets`, `set_target_velocities` and
+Mode of its motors: "position", they hold their targets with `gains`; "velocity", they hold the velocities
+that are set; "effort" (or its synonym "none"), they exert only the forces given by set_forces, which is the initial mode of DOFs that no actuator of a MuJoCo
+file drives; "mixed": not all equal. `set_targets`, `set_target_velocities` and
 `autograsp {dynamic = true}` switch the DOFs that they move.
 @type "position"|"velocity"|"effort"|"none"|"mixed"
 > hand.controller  --> position
@@ -158,13 +158,13 @@ file drives do initially ("none" is a synonym); "mixed": not all equal. `set_tar
 > hand.controller = "pid"  --> error: "none")",
      guarded<set_controller>},
     {"gravity_compensation", getter<is_on<&RobotDynamics::gravity_compensation>>, R"(
-Do its motors compensate the weight of its own links, without bodies welded to them, as controllers of real arms do? A floating
-robot has all its weight.
+Do its motors compensate the weight of its own links, without bodies welded to them, as controllers of real arms do? The weight of a
+floating robot is never compensated.
 @type boolean
 > hand.gravity_compensation  --> true)",
      setter<turn<&RobotDynamics::gravity_compensation>>},
     {"breakaway", getter<is_on<&RobotDynamics::breakaway>>, R"(
-Do joints leave its breakaway DOFs while the world runs, if a contact exceeds the breakaway torque? They are
+Do joints leave their breakaway DOFs while the world runs, if a contact exceeds the breakaway torque? They are
 then locked until the opening DOF returns to them. Otherwise, as in GraspIt!'s dynamics, the DOF drives all its joints rigidly.
 @type boolean
 > hand.breakaway  --> false)",
@@ -178,15 +178,15 @@ Is its base free to move? Otherwise it is fixed, or moves with its set velocity.
 
 static const Entry robot_dynamics_methods[] = {
     {"set_forces", guarded<set_forces>, R"(
-Force of each motor from now on: in addition to that of its controller, or alone with the controller "none". DOFs that a table by
-names leaves out keep their forces.
+Sets the force of each motor from now on: in addition to that of its controller, or alone with the controller "none". DOFs that are
+absent from a table by names keep their forces.
 @param forces number[]|table<string, number>  [N m or N]
 @effect edits
 > hand:set_forces {dof2 = 0.5}
 > hand:set_forces {1}  --> error: expected 12)"},
     {"set_targets", guarded<set_targets>, R"(
-Targets of its motors: reached at once, or on a smooth path (a polynomial of the fifth degree in time). DOFs that a table
-by names leaves out keep theirs.
+Sets the targets of its motors: at once, or along a smooth path (a quintic polynomial in time). DOFs that are absent from a table
+by names keep theirs.
 @param dofs number[]|table<string, number>  [rad or m]
 @param options? table  how fast
 @option velocity? number [rad/s or m/s, > 0]  the largest on the way
@@ -194,14 +194,14 @@ by names leaves out keep theirs.
 > hand:set_targets({dof2 = 0.3}, {velocity = 1})
 > hand:set_targets({dof2 = 100})  --> error: must lie in)"},
     {"set_target_velocities", guarded<set_target_velocities>, R"(
-Target velocities of its motors. DOFs that a table by names leaves out keep theirs.
+Sets the target velocities of its motors. DOFs that are absent from a table by names keep theirs.
 @param velocities number[]|table<string, number>  [rad/s or m/s]
 @effect edits
 > hand:set_target_velocities {dof2 = 0.1}
 > hand:set_target_velocities {1}  --> error: expected 12)"},
     {"has_closed", method<[](const RobotHandle& x) { return has_closed(*x.world, x.id); }>, R"(
-Has every finger closed: does its last link touch something, is it at its limit, or has it come to rest after the time in which
-it was to close?
+Has every finger closed? A finger has closed if its last link touches something, if it is at its limit, or if it is at rest after
+the expected closing time.
 @return boolean
 @effect reads
 > hand:has_closed()  --> false)"},

@@ -39,15 +39,14 @@ static void tell_trouble(lua_State* L, const World& world, const StepReport& bef
         pairs.empty() ? "overlapped for a time" : "overlap (" + describe(world, pairs) + ")";
     warn_once(L, &overlaps,
               fmt::format("{}: bodies {}; they are pushed apart slowly; world.report.overlaps "
-                          "counts them; what is deeper than {:.3g} m in each other stays there",
+                          "counts them; overlaps deeper than {:.3g} m remain",
                           subject(L), which, deepest_parted * world.contact_threshold()));
   }
   if (report.failures > before.failures)
-    warn_once(
-        L, &failures,
-        fmt::format("{}: some steps ask of contacts, limits and motors what cannot be at once; "
-                    "what comes nearest was done; world.report.failures counts them",
-                    subject(L)));
+    warn_once(L, &failures,
+              fmt::format("{}: in some steps contacts, limits and motors contradict each other, "
+                          "and the nearest solution was used; world.report.failures counts them",
+                          subject(L)));
 }
 
 // Parts of the world that ODE does not simulate; empty if there are none.
@@ -94,7 +93,8 @@ static void check_not_running(lua_State* L) {
   if (!push_hooks(L, self<WorldHandle>(L).world, false)) return;
   lua_getfield(L, -1, "runs");
   if (lua_toboolean(L, -1))
-    fail("{}: the world runs already: what is called in a run cannot step it", subject(L));
+    fail("{}: the world is already running: functions called during a run cannot step it",
+         subject(L));
   lua_pop(L, 2);
 }
 
@@ -237,9 +237,9 @@ Length of the steps of `run`; from 1e-7 to 1.
 > world.time_step = 0  --> error: time step)",
      setter<set_time_step>},
     {"dynamics", guarded<get_dynamics>, R"(
-Solver settings; a copy, and setting a table changes the keys that it contains. `engine`: "clench", or "ode", which solves the same
-contacts by another library, at most 1,000 points in a step; `cone`: friction cones are "round", or a "pyramid" of `edges` edges, of which bodies
-that touch each other have at most 6,000; more is an error of the kind "limit".
+Solver settings. Returns a copy; setting a table changes the keys that it contains. `engine`: "clench", or "ode", which solves the same
+contacts with the library ODE, at most 1,000 points per step; `cone`: friction cones are "round", or a "pyramid" of `edges` edges, of which each group of
+touching bodies has at most 6,000; more is an error of the kind "limit".
 @type {time_step: number, engine: string, cone: string, edges: integer}
 > world.dynamics = {engine = "ode"}
 > world.dynamics.engine, world.dynamics.time_step  --> ode, 0.001
@@ -256,22 +256,22 @@ as velocities [m/s].
 
 static const Entry world_dynamics_methods[] = {
     {"run", guarded<run>, R"(
-Simulates: everything that is free moves by gravity, contacts and the motors of robots. Each step first moves bodies with the
-velocities that they have, then finds contacts, then solves for new velocities. Afterwards exactly so much time has passed.
+Simulates: all free bodies move under gravity, contacts and the motors of robots. Each step first moves bodies with
+their present velocities, then finds contacts, then solves for new velocities. The simulation time advances by exactly the given time.
 @param seconds number  [s]
 @effect long
 > world:run(0.01)
 > world.time  --> 0.01
 > world:run(-1)  --> error: expected a time from 0)"},
     {"move_bodies", guarded<move_bodies>, R"(
-The first half of a step: moves everything with the velocity that it has, until the time has passed or two bodies that
-approach each other touch.
+First half of a step: moves everything with its present velocity, until the time has passed or two approaching bodies
+touch.
 @param dt number  [s]
 @return number passed  in (0, dt] [s]
 @effect edits
 > world:move_bodies(0.001)  --> 0.001)"},
     {"solve_velocities", guarded<solve_velocities>, R"(
-The second half of a step: the velocities that contacts, forces, motors and limits leave after the time in which they act.
+Second half of a step: computes the velocities that result after contacts, forces, motors and limits have acted for the given time.
 @param h number  what move_bodies gave [s]
 @effect edits
 > world:solve_velocities(world:move_bodies(0.001))
@@ -280,7 +280,7 @@ The second half of a step: the velocities that contacts, forces, motors and limi
        for (Load& load : x.world->edit_dynamics().loads) load = {};
      }>,
      R"(
-Clears the forces and torques of `apply_force` and `apply_torque` for the next step.
+Clears the forces and torques that `apply_force` and `apply_torque` have set for the next step.
 @effect edits
 > flask:apply_force({0, 0, 1})
 > world:clear_forces()
@@ -288,7 +288,7 @@ Clears the forces and torques of `apply_force` and `apply_torque` for the next s
 > world:run(0.001)
 > flask.velocity.linear  --> (0, 0, 0))"},
     {"momentum", guarded<get_momentum>, R"(
-Total momentum of all objects and robots; the angular one about the origin of the world.
+Total momentum of all objects and robots; the angular momentum is about the origin of the world.
 @return {linear: vec3, angular: vec3}  [kg m/s], [kg m^2/s]
 @effect reads
 > world:momentum().linear  --> (0, 0, 0))"},
@@ -298,7 +298,7 @@ Total energy of all objects and robots: kinetic, and potential relative to the o
 @effect reads
 > world:energy().kinetic  --> 0.0)"},
     {"average_contacts", guarded<average_contacts>, R"(
-Contact force on each of some bodies in the last step: the sum of the forces and their center. Bodies on which nothing
+Resultant contact force on each of the given bodies in the last step, and its center. Bodies on which nothing
 presses are left out.
 @param links body|body[]  link or links whose contacts are averaged
 @return {link: body, force: vec3, point: vec3, count: integer}[]  [N], [m]

@@ -236,22 +236,22 @@ static int jacobian_rows(lua_State* L) {
 
 static const Entry forces_methods[] = {
     {"contact_forces", guarded<forces>, R"(
-Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench {fx,
-fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's center of mass; its
+Contact forces that hold the object against a load, inside the exact friction cones. The load is a wrench {fx,
+fy, fz, tx, ty, tz} that acts on the object from outside, in world axes, with its torque about the object's center of mass; the object's
 weight is {0, 0, -9.81 * mass, 0, 0, 0}. Objectives: "min_sum", the minimum sum of normal forces (Han, Trinkle and Li
-2000; Boyd and Wegbreit 2007); "min_norm", the minimum sum of squares of the forces, the only one that always has a unique
-solution; "min_max", the minimum largest normal force; "max_margin", as far from the edges of the cones and from max_force
-as possible; "max_margin_sum", the largest sum of the distances from the edges. `status`: "optimal"; "infeasible",
-with a `certificate`; "unbounded" if more force is always better; "inaccurate" if the solution does not pass its
-check: balance, cones, caps and optimum to 1e-9, and the residual of a load, to 1e-7 of it. An inactive cap
-changes nothing. `margin`: the least of the forces' margins, for "max_margin" of the distances from max_force, too; 0
-when some force has to lie on an edge: then "max_margin" is optimal, but these contacts cannot keep inside their cones,
+2000; Boyd and Wegbreit 2007); "min_norm", the minimum sum of squares of the forces, the only objective that always has a unique
+solution; "min_max", the minimum of the largest normal force; "max_margin", the largest possible distance from the edges of the cones and from max_force;
+"max_margin_sum", the largest sum of the distances from the edges. `status`: "optimal"; "infeasible",
+with a `certificate`; "unbounded" if arbitrarily large forces are optimal; "inaccurate" if the solution fails its
+check: balance, cones, caps and optimum to 1e-9, and the residual of a load to 1e-7 of the load. A cap that is not reached
+changes nothing. `margin`: the smallest margin of all forces, for "max_margin" including the distances from max_force; 0
+if some force has to lie on an edge: then "max_margin" is optimal, but these contacts cannot keep all forces strictly inside their cones,
 as without force closure. `forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential
-along x and y of contact.frame, force in the world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the
-wrench that is left, `residual` its length, torque over rho. `joint_torques`: of each DOF. `certificate`: a motion of
-the object, `twist`, along which the load's `power` is more than the `capacity` of caps and motors; `separation_rates`
-and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit_power` of the capacity; `contact` or
-`dof`, whichever yields. `unlimited_efforts`: with torque_limits = true, names of the motors that have no limit; nil without any.
+along x and y of contact.frame, force in world axes, margin from the edge of the cone [N, N m]. `unbalanced`: the
+remaining wrench; `residual`: its length, with torque over rho. `joint_torques`: one per DOF. `certificate`: a motion of
+the object, `twist`, along which the `power` of the load exceeds the `capacity` of caps and motors; `separation_rates`
+and `sliding_rates`: those of each contact along it; `force_limit_power`, `effort_limit_power`: parts of the capacity; `contact` or
+`dof`: the one that yields. `unlimited_efforts`: with torque_limits = true, names of the motors that have no limit; nil if all have one.
 @param options? table  the load, the limits and the objective
 @option load? number[] [N and N m]  wrench on the object that the contacts balance, {fx, fy, fz, tx, ty, tz}
 @option objective? "min_sum"|"min_norm"|"min_max"|"max_margin"|"max_margin_sum" = "min_sum"  what is optimized
@@ -274,8 +274,8 @@ and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit
 > grasp:contact_forces{load = weight, objective = "min_sun"}  --> error: did you mean 'min_sum'?
 > grasp:contact_forces{load = {1, 2}}  --> error: 6)"},
     {"max_load", guarded<largest>, R"(
-The largest multiple `load` of a wrench on the object that forces at the contacts balance, its axes as in contact_forces.
-`status` "unlimited" if no cap and no torque limits it. The `certificate` names the contacts that yield beyond it.
+The largest multiple `load` of a wrench on the object that contact forces balance, in the axes of contact_forces.
+`status` is "unlimited" if no cap and no torque limits it. The `certificate` names the contacts that yield beyond it.
 `unlimited_efforts` as in contact_forces. With `torques` the motors keep these torques at every load; "infeasible" if they balance no multiple, 0
 included.
 @param options table  the direction and the limits
@@ -306,9 +306,9 @@ loads larger than the true ones leave a margin. `unlimited_efforts` as in contac
 > grasp:optimal_preload{loads = {}}  --> error: expected at least one load, got none
 > grasp:optimal_preload{loads = {{1, 2}}}  --> error: 6)"},
     {"equilibrium", guarded<balance>, R"(
-Can the hand in its present posture hold the load (as in contact_forces)? Its joints must be balanced too: by motors through their
-couplings, within hand.effort_ranges, by springs, and by the clutches of joints that have broken away. The palm resists any force. `status`: "stable"; "unstable", then `unbalanced` is the smallest
-wrench that remains and `certificate` names what yields; "moving" if no contact forces balance the joints, so that a
+Can the hand in its present posture hold the load (as in contact_forces)? Its joints must be in equilibrium too: by motors through their
+couplings, within hand.effort_ranges, by springs, and by the clutches of joints that have broken away. The palm resists any force. `status`: "stable"; "unstable": `unbalanced` is the smallest
+remaining wrench, and `certificate` names what yields; "moving": no contact forces balance the joints, so that a
 finger moves; "inaccurate".
 @param options? table  the load, the torques and the limits
 @option load? number[] [N and N m]  wrench on the object, {fx, fy, fz, tx, ty, tz}
@@ -321,15 +321,15 @@ finger moves; "inaccurate".
 > grasp:equilibrium{load = {0, 0, -1e4, 0, 0, 0}}.status  --> unstable
 > grasp:equilibrium{torques = {1}}  --> error: expected 12, one per DOF)"},
     {"grasp_map", guarded<map_rows>, R"(
-From contact forces to the wrench on the object: six rows, in the object's frame about its center of mass, unscaled.
-Columns contact by contact: the normal force; with friction then the forces along x and y of contact.frame; of soft
-contacts then the torque about the normal.
+Grasp map, which takes contact forces to the wrench on the object: six rows, in the object's frame about its center of mass, unscaled.
+Columns contact by contact: the normal force; with friction, the forces along x and y of contact.frame; for soft
+contacts, the torque about the normal.
 @return number[][]
 @effect reads
 > #grasp:grasp_map(), #grasp:grasp_map()[1] == 3 * #grasp.contacts  --> 6, true)"},
     {"hand_jacobian", guarded<jacobian_rows>, R"(
-Velocity of the contacts per DOF: a row for each column of the grasp map, a column for each DOF, by the ratios of
-its joints. Its transpose takes contact forces to the motors' torques. Joints that have broken away do not count.
+Velocity of the contacts per DOF: a row for each column of the grasp map, a column for each DOF, with the ratios of
+its joints. Its transpose takes contact forces to motor torques. Joints that have broken away are left out.
 @return number[][]
 @effect reads
 > #grasp:hand_jacobian()[1] == #hand.dofs  --> true)"},

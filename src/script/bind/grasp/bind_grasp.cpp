@@ -55,7 +55,7 @@ static int measure(lua_State* L) {
   const std::string about = fmt::format("grasp of {} by {}", object->name, hand->name);
   if (measured.contacts_at_edges > 0 && first_time(L, &at_edges, about))
     log_warning(L, fmt::format("{}: {} of {} contacts are soft ones on corners or edges, whose "
-                               "patch is a guess; of later grasps contact.patch.at_edge tells",
+                               "patch is an estimate; for later grasps see contact.patch.at_edge",
                                about, measured.contacts_at_edges, measured.contacts.size()));
   return push_object(L, GraspHandle{hand.world, std::move(measured)});
 }
@@ -247,7 +247,7 @@ The body that is grasped.
 > grasp.object == flask  --> true)"},
     {"hand_name", getter<[](const GraspHandle& x) { return x.grasp.hand_name; }>,
      R"(
-Name of the robot that grasps; a grasp outside any world has it, too.
+Name of the robot that grasps; grasps outside any world have it, too.
 @type string
 > grasp.hand_name == hand.name  --> true)"},
     {"object_name", getter<[](const GraspHandle& x) { return x.grasp.object_name; }>, R"(
@@ -255,30 +255,30 @@ Name of the body that is grasped.
 @type string
 > grasp.object_name  --> flask)"},
     {"hand_file", guarded<get_hand_file>, R"(
-File that the hand was read from, as it was named; nil: not known.
+Path from which the hand was read, as it was given; nil if unknown.
 @type string?
 > grasp.hand_file == hand.source  --> true)"},
     {"object_file", guarded<get_object_file>, R"(
-File that the object was read from, as it was named; nil: not known.
+Path from which the object was read, as it was given; nil if unknown.
 @type string?
 > grasp.object_file == flask.source  --> true)"},
     {"hand_fingerprint", getter<[](const GraspHandle& x) { return x.grasp.hand_fingerprint; }>, R"(
-Fingerprint of the hand's shapes and joints when the grasp was measured: its `mechanism_fingerprint`; "" in a list from a file without it.
+Fingerprint of the hand's shapes and joints when the grasp was measured (its `mechanism_fingerprint`); "" if the grasp is from a file without it.
 @type string
 > grasp.hand_fingerprint == hand.mechanism_fingerprint  --> true)"},
     {"object_fingerprint", getter<[](const GraspHandle& x) { return x.grasp.object_fingerprint; }>,
      R"(
-Fingerprint of the object's surface when the grasp was measured: that of its mesh; "" in a list from a file without it.
+Fingerprint of the object's surface when the grasp was measured (that of its mesh); "" if the grasp is from a file without it.
 @type string
 > grasp.object_fingerprint == flask.mesh.fingerprint  --> true)"},
     {"settings_fingerprint",
      getter<[](const GraspHandle& x) { return x.grasp.settings_fingerprint; }>, R"(
-Fingerprint of the options of its measures: edges, rho, soft, normal_force and modulus. Measures of grasps with equal ones can be compared.
+Fingerprint of the options of the measures: edges, rho, soft, normal_force and modulus. Measures of grasps with equal fingerprints can be compared.
 @type string
 > again = clench.grasp(hand, flask, {edges = 12})
 > again.settings_fingerprint == grasp.settings_fingerprint  --> false)"},
     {"engine_version", getter<[](const GraspHandle& x) { return x.grasp.engine_version; }>, R"(
-Version of Clench that measured the grasp; "" in a list from a file without it.
+Version of Clench that measured the grasp; "" if the grasp is from a file without it.
 @type string
 > grasp.engine_version == clench.version  --> true)"},
     {"pose", getter<[](const GraspHandle& x) { return x.grasp.X_OH; }>, R"(
@@ -290,7 +290,7 @@ Values of the hand's DOFs when the grasp was measured.
 @type number[]  [rad or m]
 > #grasp.dofs == #hand.dofs  --> true)"},
     {"dof_names", getter<[](const GraspHandle& x) { return x.grasp.dof_names; }>, R"(
-Names of these DOFs; empty in a list from a file that does not name them.
+Names of these DOFs; empty if the grasp is from a file that does not name them.
 @type string[]
 > grasp.dof_names[2] == hand.dof_names[2]  --> true)"},
     {"joint_positions", getter<[](const GraspHandle& x) { return x.grasp.joints; }>, R"(
@@ -298,44 +298,44 @@ Positions of the hand's joints when the grasp was measured.
 @type number[]  [rad or m]
 > #grasp.joint_positions > #grasp.dofs  --> true)"},
     {"joint_names", getter<[](const GraspHandle& x) { return x.grasp.joint_names; }>, R"(
-Names of these joints, followers included: those of the hand's file; else that of the DOF, of the joint that has its value; else "chain0_joint1". Empty in a
-list from a file that does not name them.
+Names of these joints, including followers: that in the hand's file; otherwise the DOF's name, for the joint with the value of the DOF; otherwise "chain0_joint1". Empty if the grasp
+is from a file that does not name them.
 @type string[]
 > #grasp.joint_names == #grasp.joint_positions  --> true)"},
     {"joint_values", method<joint_values>, R"(
-The same positions in the convention of the hand's file, which other programs expect: they differ if the file's joint has
+The same positions in the convention of the hand's file, which other programs expect; the two differ if the file's joint has
 another zero.
 @type number[]  [rad or m]
 > #grasp.joint_values == #grasp.joint_names  --> true)"},
     {"measures", getter<[](const GraspHandle& x) { return x.grasp.measures; }>, R"(
-Measures that were asked for so far, by name; in a file they are kept with the grasp.
+Measures that have been computed so far, by name; files store them with the grasp.
 @type table<string, number>
 > epsilon = grasp:quality "epsilon"
 > grasp.measures.epsilon == epsilon  --> true)"},
     {"info", getter<[](const GraspHandle& x) { return x.grasp.info; }>, R"(
-Numbers that a script notes, by name: a seed, an energy, the number of a run. They are kept in files.
+Numbers of a script, by name, such as a seed, an energy or the number of a run. Files store them.
 @type table<string, number>
 > grasp.info = {seed = 7}
 > grasp.info.seed  --> 7.0
 > grasp.info = {seed = "x"}  --> error: seed: expected a number, got 'x')",
      guarded<set_info>},
     {"labels", getter<[](const GraspHandle& x) { return x.grasp.labels; }>, R"(
-Words that a script notes, by name: its planner, its script. They are kept in files.
+Texts of a script, by name, such as its planner or its file. Files store them.
 @type table<string, string>
 > grasp.labels = {planner = "mine"}
 > grasp.labels.planner  --> mine
 > grasp.labels = {planner = 3}  --> error: planner: expected a string, got 3)",
      guarded<set_labels>},
     {"pregrasp", getter<[](const GraspHandle& x) { return x.grasp.pregrasp; }>, R"(
-The hand before it approaches the object and closes: the `pose` of its base in the object, and its `dofs`. nil: not
-known. Planners set it; files keep it.
+The hand before it approaches the object and closes: the `pose` of its base in the object frame, and its `dofs`; nil if
+unknown. Planners set it; files store it.
 @type {pose: pose, dofs: number[]}?
 > grasp.pregrasp  --> nil
 > grasp.pregrasp = {pose = grasp.pose, dofs = grasp.dofs}
 > #grasp.pregrasp.dofs == #hand.dofs  --> true)",
      guarded<set_pregrasp>},
     {"squeeze", guarded<get_squeeze>, R"(
-Targets of the motors that press on the object, one per DOF, perhaps beyond its limits; nil: not known. Planners that verify set it; files keep it.
+Motor targets that press on the object, one per DOF, possibly beyond its limits; nil if unknown. Planners that verify set it; files store it.
 @type number[]?  [rad or m]
 > grasp.squeeze  --> nil
 > grasp.squeeze = grasp.dofs
@@ -349,7 +349,7 @@ Was the grasp free of collisions? nil: not checked. Planners set it; files store
 > grasp.collision_free  --> true)",
      guarded<set_collision_free>},
     {"epsilon", guarded<get_epsilon>, R"(
-The measure "epsilon", as it was measured or, else, from its points; nil of a grasp from a file that has neither.
+The measure "epsilon", as it was measured or, otherwise, computed from the points; nil for a grasp from a file that has neither.
 @type number?
 > grasp.epsilon == grasp:quality "epsilon"  --> true)"},
     {"contacts", guarded<get_grasp_contacts>, R"(
@@ -357,20 +357,20 @@ The contacts on the object when the grasp was measured.
 @type contact[]
 > grasp.contacts[1].body == flask  --> true)"},
     {"points", getter<[](const GraspHandle& x) { return x.grasp.points; }>, R"(
-The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers.
+The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 for hard fingers.
 @type {point: vec3, normal: vec3, mu: number, torsion_radius: number}[]  [m]
 > again = clench.wrench_space{contacts = grasp.points, com = flask.com, rho = grasp.rho}
 > again:epsilon() == grasp:quality "epsilon"  --> true)"},
     {"links", getter<[](const GraspHandle& x) { return x.grasp.links; }>, R"(
-Names of the touching bodies at each of the points.
+Name of the touching body at each of the points.
 @type string[]
 > #grasp.links == #grasp.points, grasp.links[1] == grasp.contacts[1].other.name  --> true, true)"},
     {"rho", getter<[](const GraspHandle& x) { return x.grasp.rho; }>, R"(
-Length that torques are divided by.
+Length by which torques are divided.
 @type number  [m]
 > grasp.rho > 0  --> true)"},
     {"com", getter<[](const GraspHandle& x) { return x.grasp.com; }>, R"(
-The object's center of mass when the grasp was measured, in the object: torques are about it.
+The object's center of mass when the grasp was measured, in the object frame; torques are about it.
 @type vec3  [m]
 > grasp.com == flask.com  --> true)"},
     {"edges", guarded<get_grasp_edges>, R"(
@@ -385,12 +385,12 @@ The options with which clench.grasp measures another grasp in the same way.
 
 static const Entry grasp_methods[] = {
     {"apply", guarded<apply_by_script>, R"(
-Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp
-there. Hand and object are found by their names unless they are given, DOFs by theirs if the grasp has them; DOFs that it
-does not have keep their values. Joints that a DOF moves may be listed, too: a warning names one that differs from the value given by its DOF. A
+Puts the hand back into its pose relative to the object at the object's present pose, sets its joints, and measures the grasp
+there. Hand and object are found by name unless they are given. DOFs are found by name if the grasp has names; DOFs that it
+does not contain keep their values. Joints that a DOF moves may be listed, too: a warning names one that differs from the value given by its DOF. A
 value up to 0.02 rad or 1 mm beyond a limit is set to the limit, with a warning if it is more than the rounding of 32 bits. DOFs without names are taken in
-the hand's order, with a warning if Isaac Sim numbers them otherwise, unless `dof_order` gives the order: "hand", "isaac", breadth first, or a list of names. If an arm carries the hand, the arm moves with everything that it carries, to the posture that `ik` finds first from its present one. Nothing else moves, and collisions are not checked: see `world:collides`.
-A warning names a hand whose shapes or joints, or an object whose surface differs from the one that the grasp was measured with; masses, materials, limits and motors may differ.
+the hand's order, with a warning if Isaac Sim numbers them differently, unless `dof_order` gives the order: "hand"; "isaac", which is breadth first; or a list of names. If an arm carries the hand, the arm moves with everything that it carries, to the first posture that `ik` finds from its present one. Nothing else moves, and collisions are not checked: see `world:collides`.
+A warning names a hand with other shapes or joints, or an object with another surface, than those of the measured grasp; masses, materials, limits and motors may differ.
 @param world? world  default: its own
 @param options? table  the hand and the object, if not those of the grasp's names
 @option hand? robot  in that world
@@ -413,8 +413,8 @@ Values of all DOFs of a hand as `apply` would set them, and of its pregrasp, if 
 > #grasp:dofs_for(hand) == #hand.dofs  --> true)"},
     {"save", guarded<save_grasp>, R"(
 Writes the grasp in its world as a scene of MuJoCo, as world:save does. The base of the hand is on slides, named carriage_x, carriage_y
-and carriage_z, along the axes of the world. The keys "pregrasp", "grasp" and "lift" hold postures, and controls of the motors: in "grasp" and
-"lift" they press to the targets of `squeeze`, or, without it or with `force`, with contact forces in equilibrium; between "grasp" and "lift" the hand rises.
+and carriage_z, along the axes of the world. The keyframes "pregrasp", "grasp" and "lift" contain postures and motor controls: in "grasp" and
+"lift" the motors press towards the targets of `squeeze`, or, without it or with `force`, with contact forces in equilibrium; between "grasp" and "lift" the hand rises.
 @param path string  .xml or .mjcf
 @param options? table  the keys of the scene
 @option force? number [N, > 0]  sum of the normal forces, 10 times the object's weight by default, less if the motors cannot exert that
@@ -429,7 +429,7 @@ and carriage_z, along the axes of the world. The keys "pregrasp", "grasp" and "l
 > grasp:save "grasp.wld"  --> error: expected a scene of MuJoCo to .xml or .mjcf, got '.wld')"},
     {"is_force_closure",
      method<[](const GraspHandle& x) { return space_of(x.grasp)->is_force_closure(); }>, R"(
-Can it resist every wrench?
+Can the grasp resist every wrench?
 @return boolean
 @effect reads
 > grasp:is_force_closure()  --> true)"},

@@ -44,7 +44,7 @@ static int list_grasps(lua_State* L) {
         path, {.add = add, .expect = [&](size_t n) { list.grasps.reserve(n); }}, format, reading);
     if (order.is_given() && has_names)
       reading.diagnostics.warn(Place(std::filesystem::path(path).filename().string()),
-                               "it names DOFs, for which dof_order is not used");
+                               "it names its DOFs, so dof_order is not used");
   }
   push_object(L, std::move(list));
   if (!format_read) return 1;
@@ -103,8 +103,8 @@ static const std::vector<GraspHandle>& items_of(const GraspList& list) { return 
 
 static const Entry grasps_functions[] = {
     {"grasps", guarded<list_grasps>, R"(
-A list of grasps: an empty one, or one from a file, in any format that `save` writes; the ending or `format` selects it, and
-for `.json` and `.txt` files their contents. Its grasps belong to no world: they have the file's contacts, posture
+A list of grasps: empty, or read from a file in any format that `save` writes; the ending or `format` selects it, and
+for `.json` and `.txt` files the contents do. Its grasps belong to no world: they have the file's contacts, posture
 and measures, and `apply` puts them into a world.
 @param path? string  file of grasps to read; without it the list is empty
 @param options? table  how the file is read
@@ -135,7 +135,7 @@ Appends a copy of a grasp, including its measures.
 > clench.grasps():add(grasp)  --> 1)"},
     {"save", guarded<grasps_save>, R"(
 Writes the list. JSON lines (`.jsonl`, or no ending) store everything: a head with the version, then a grasp on each line, with bit-exact numbers.
-`.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by
+`.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are selected by their endings, too, `.json` of GraspGen and MultiGripperGrasp by
 `format`; a warning names everything that a format cannot represent. The same list gives the same bytes.
 @param path string  file to write; its ending selects the format
 @param options? table  how it is written
@@ -151,8 +151,8 @@ Writes the list. JSON lines (`.jsonl`, or no ending) store everything: a head wi
 > list:save("grasps.txt", {format = "cvs"})  --> error: unknown format 'cvs', expected one of jsonl, csv
 > list:save "no_such_folder/grasps.jsonl"  --> error: no such folder)"},
     {"check_save", guarded<grasps_check_save>, R"(
-Checks that `save` can write there, before a long search for instance: the format is known, the folder exists, and file and
-folder may be written. Changes no file.
+Checks that `save` can write there, for instance before a long search: the format is known, the folder exists, and file and
+folder are writable. Changes no file.
 @param path string  file that is to be written; its ending selects the format
 @param options? table  how it would be written
 @option format? string  as clench.grasps takes it

@@ -104,7 +104,7 @@ The measures that grasp:quality knows, in the order of the guide.
 static const Entry measures_methods[] = {
     {"quality", guarded<quality>, R"(
 A measure of the grasp by name: "epsilon", "volume" and all that clench.measures() lists with definition, range, unit and
-source. Infinite if there is nothing to measure, such as the clearance of a hand alone. The world must have the state in which
+source. Infinite if there is nothing to measure, such as the clearance of a hand alone. The world must be in the state in which
 the grasp was measured.
 @param measure string  name of a quality measure, from clench.measures
 @return number
@@ -113,16 +113,16 @@ the grasp was measured.
 > grasp:quality "epsilon_linf" >= grasp:quality "epsilon"  --> true
 > grasp:quality "epsilom"  --> error: did you mean 'epsilon'?)"},
     {"quality_all", guarded<quality_all>, R"(
-All measures at once, by name; those that are infinite are left out, and those that are not available, such as the volume of
+All measures at once, by name, without those that are infinite and those that are not available, such as the volume of
 too many contacts with too many edges.
 @return table<string, number>
 @effect reads
 > q = grasp:quality_all()
 > q.epsilon == grasp:quality "epsilon", q.isotropy > 0  --> true, true)"},
     {"resistance", guarded<resist>, R"(
-The largest multiple of a wrench on the object that contact forces in round cones balance, their normal parts summing to
-at most one newton (norm "L1") or each at most one ("Linf"); for several wrenches the smallest multiple; for an ellipsoid the
-largest that is resisted completely, by the friction cones of the grasp. World axes, torques about the center of mass.
+The largest multiple of a wrench on the object that contact forces in round cones balance, with normal forces that sum to
+at most one newton (norm "L1") or are each at most one newton ("Linf"); for several wrenches the smallest such multiple; for an ellipsoid the
+largest multiple that is resisted completely, with the friction cones of the grasp. World axes, torques about the center of mass.
 @param options table  one of wrench, wrenches and ellipsoid
 @option wrench? number[] [N and N m]  {fx, fy, fz, tx, ty, tz}
 @option wrenches? number[][] [N and N m]  the least over all

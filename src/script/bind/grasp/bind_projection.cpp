@@ -103,15 +103,15 @@ static std::string projection_text(const ProjectionHandle& x) {
 
 static const Entry projection_fields[] = {
     {"volume", getter<[](const ProjectionHandle& x) { return x.projection->volume; }>, R"(
-Volume in the three coordinates; 0 when it is flat.
+Volume in the three coordinates; 0 if it is flat.
 @type number
 > grasp:wrench_space():project{projected = {"tx", "ty", "tz"}}.volume > 0  --> true)"},
     {"mesh", getter<[](const ProjectionHandle& x) { return x.shape; }>, R"(
-Its surface, x y z the free coordinates; nil when it is flat.
+Its surface, with the free coordinates as x, y and z; nil if it is flat.
 @type mesh
 > grasp:wrench_space():project{fixed = {tx = 0, ty = 0, tz = 0}}.mesh:is_watertight()  --> true)"},
     {"free", getter<[](const ProjectionHandle& x) { return names_of(x.projection->free); }>, R"(
-The coordinates that are left, which are x, y and z of the mesh.
+The free coordinates, which are x, y and z of the mesh.
 @type string[]
 > grasp:wrench_space():project{projected = {"tx", "ty", "tz"}}.free[1]  --> fx)"},
     {"fixed", getter<fixed_of>, R"(
@@ -120,14 +120,14 @@ The values of the coordinates that were fixed.
 > grasp:wrench_space():project{fixed = {tx = 0, ty = 0, tz = 0.01}}.fixed.tz  --> 0.01)"},
     {"projected",
      getter<[](const ProjectionHandle& x) { return names_of(x.projection->projected); }>, R"(
-The coordinates that may be anything.
+The coordinates that may have any value.
 @type string[]
 > #grasp:wrench_space():project{projected = {"tx", "ty", "tz"}}.projected  --> 3)"},
 };
 
 static const Entry projection_methods[] = {
     {"render", guarded<draw_projection>, R"(
-Draws it, transparent, with its axes and their numbers [N], the ball of epsilon as far as it lies in it, and the
+Draws it transparently, with its axes and their numbers [N], the part of the ball of epsilon that lies in it, and the
 weakest direction; size, samples and camera as in clench.render.
 @param options? table  what is shown, and the picture
 @option ball? boolean = true  true: the largest ball in the space

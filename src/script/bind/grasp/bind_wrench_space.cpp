@@ -49,7 +49,7 @@ std::optional<std::vector<int>> read_coordinates(Table& options, const char* key
   const What what = options.what(key);
   options.each(key, "a list of coordinates", [&](int i, const What& item) {
     const int c = coordinate_of(read_string(what.L, i, item), what);
-    if (std::ranges::count(out, c)) fail("{}: {} is there twice", what.text(), coordinate_names[c]);
+    if (std::ranges::count(out, c)) fail("{}: {} is given twice", what.text(), coordinate_names[c]);
     out.push_back(c);
   });
   return out;
@@ -184,8 +184,8 @@ static const Entry wrench_space_functions[] = {
     {"wrench_space", guarded<new_wrench_space>, R"(
 All wrenches that contacts resist when their normal forces sum to one (norm "L1") or are each at most one ("Linf").
 A contact is a list of unit wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu, torsion_radius} in
-the object frame; torsion_radius, 0 for a hard finger, is that of torsional friction of a soft one [m]. Nothing
-is calculated before it is asked for.
+the object frame; torsion_radius [m] is that of the torsional friction of a soft finger, 0 for a hard one. Nothing
+is calculated before it is requested.
 @param options table  the contacts, and how they are combined
 @option contacts table[]  points with their cones, or lists of wrenches {fx, fy, fz, tx, ty, tz}
 @option contacts.point? vec3 [m]  contact point
@@ -209,7 +209,7 @@ is calculated before it is asked for.
 
 static const Entry space_fields[] = {
     {"rank", getter<[](const WrenchSpacePtr& x) { return x->rank(); }>, R"(
-Dimension that the wrenches span, 0 to that of the space.
+Dimension of the span of the wrenches, from 0 to that of the space.
 @type integer
 > clench.wrench_space{contacts = {{{1, 0, 0, 0, 0, 0}}}}.rank  --> 1)"},
     {"norm", getter<[](const WrenchSpacePtr& x) { return norm_name(*x); }>, R"(
@@ -218,21 +218,21 @@ Dimension that the wrenches span, 0 to that of the space.
 > grasp:wrench_space().norm  --> L1)"},
     {"coordinates",
      getter<[](const WrenchSpacePtr& x) { return names_of(x->options().coordinates); }>, R"(
-The coordinates that count.
+The coordinates of the space.
 @type string[]
 > #grasp:wrench_space().coordinates  --> 6)"},
 };
 
 static const Entry space_methods[] = {
     {"epsilon", guarded<epsilon>, R"(
-Radius of the largest ball of wrenches that is resisted; 0 unless force closure. Good to 1e-12, with round cones to 1e-9
+Radius of the largest ball of resisted wrenches; 0 without force closure. Accurate to 1e-12, with round cones to 1e-9
 or, if that takes too many facets (rings of equal contacts, large friction), a certified lower bound: epsilon_bounds
-has both bounds.
+returns both bounds.
 @return number
 @effect reads
 > grasp:wrench_space():epsilon() == grasp:quality "epsilon"  --> true)"},
     {"epsilon_bounds", guarded<epsilon_bounds>, R"(
-A certified bracket around epsilon, no tighter than need be: it ends when upper - lower is within the tolerance (1e-6),
+Certified bounds of epsilon, no tighter than necessary: refinement ends when upper - lower is within the tolerance (1e-6),
 or as soon as epsilon is known to reach or miss at_least.
 @param options? table  when it ends
 @option tolerance? number [>= 0] = 1e-6  sufficient difference of the bounds
@@ -243,15 +243,15 @@ or as soon as epsilon is known to reach or miss at_least.
 > bounds.lower <= bounds.upper and bounds.upper <= bounds.lower + 1e-3  --> true
 > grasp:wrench_space():epsilon_bounds{at_least = 1}.reached  --> false)"},
     {"volume", guarded<volume>, R"(
-Volume in the coordinates that count; 0 when the space is flat. With round cones the middle of volume_bounds. In "Linf"
-five hard contacts of eight edges or three soft ones are about the maximum: beyond 60,000 cells it is an error that states
+Volume in the coordinates of the space; 0 if the space is flat. With round cones, the middle of volume_bounds. With "Linf",
+about five hard contacts of eight edges or three soft ones are the maximum: more than 60,000 cells are an error that states
 so.
 @return number
 @effect reads
 > grasp:wrench_space():volume() == grasp:quality "volume"  --> true)"},
     {"volume_bounds", guarded<volume_bounds>, R"(
-A certified bracket around the volume: with round cones, that of pyramids within them and of the same ones grown until they are
-around. Both are the volume without round cones.
+Certified bounds of the volume: with round cones, the volume for pyramids inside the cones and that for the same pyramids enlarged until they
+enclose the cones. Without round cones both are the volume.
 @param options? table  how exact they are
 @option edges? integer [4 to 1000] = 32  of the pyramids
 @return {lower: number, upper: number}
@@ -267,7 +267,7 @@ Is every wrench resisted?
 @effect reads
 > grasp:wrench_space():is_force_closure()  --> true)"},
     {"weakest", guarded<weakest>, R"(
-The wrench on the object that is resisted worst, and the contacts that yield first when it grows.
+The wrench on the object that is resisted least, and the contacts that yield first as it grows.
 @return {direction: number[], resistance: number, contacts: index[]}  unit wrench, torque over rho; its largest multiple resisted, below 0 when all contacts push along it; numbers of the contacts that push against it at their limit
 @effect reads
 > w = grasp:wrench_space():weakest()
@@ -279,8 +279,8 @@ The unit wrenches, contact by contact.
 > #grasp:wrench_space():wrenches() == #grasp.contacts  --> true
 > grasp:wrench_space{edges = "exact"}:wrenches()  --> error: round cones)"},
     {"project", guarded<project_space>, R"(
-The space in three coordinates. Of the others, `fixed` ones have a value, which gives its section, and `projected` ones may be
-anything, which gives its projection.
+The space in three coordinates. Of the others, `fixed` ones have a value, which gives a section, and `projected` ones may have
+any value, which gives a projection.
 @param options? table  the three coordinates that remain
 @option fixed? table  values of coordinates, {tx = 0, ty = 0, tz = 0}
 @option fixed.fx? number  value of this coordinate

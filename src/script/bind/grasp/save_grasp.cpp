@@ -90,8 +90,8 @@ class GraspKeys {
         return {found.efforts.begin(), found.efforts.end()};
       }
     }
-    log_warning(L_, fmt::format("{}: no contact forces are in equilibrium: in the keys the motors "
-                                "hold the posture and do not press",
+    log_warning(L_, fmt::format("{}: no contact forces are in equilibrium: in the keyframes the "
+                                "motors hold the posture and do not press",
                                 subject(L_)));
     return {};
   }

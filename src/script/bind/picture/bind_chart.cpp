@@ -39,7 +39,7 @@ static void warn_of_boxes(lua_State* L, const Chart& chart, const Font& font) {
   for (const char32_t letter : boxes | std::views::take(max_named))
     names += fmt::format("{}U+{:04X}", names.empty() ? "" : ", ", static_cast<uint32_t>(letter));
   if (boxes.size() > max_named) names += fmt::format(" and {} more", boxes.size() - max_named);
-  log_warning(L, "chart: drawn as boxes are the letters " + names);
+  log_warning(L, "chart: these characters are drawn as boxes: " + names);
 }
 
 static int chart_draw(lua_State* L) {
@@ -64,10 +64,10 @@ static int chart_draw(lua_State* L) {
 
 static const Entry chart_functions[] = {
     {"chart", guarded<chart_draw>, R"(
-Draws numbers as columns, one panel per series, each with its own scale, all over the same items, with the value at each column if
-it fits; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value
-that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts
-that are too long lose their middle. It needs no graphics hardware.
+Draws numbers as columns: one panel per series, each with its own scale, all over the same items, with the value at each column if
+it fits. The best column of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a missing
+value, and marked. Texts are UTF-8; characters that the font lacks are drawn as boxes, and a warning names them. Texts
+that are too long are shortened in the middle. No graphics hardware is needed.
 @param options table  the series and their labels
 @option series table[]  one table of these fields each
 @option series.name string  of the panel

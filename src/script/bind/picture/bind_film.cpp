@@ -53,7 +53,7 @@ static int save_gif(lua_State* L) {
 
 static const Entry film_functions[] = {
     {"save_gif", guarded<save_gif>, R"(
-Writes pictures of one size as an animated GIF of up to 256 colors that plays again and again.
+Writes pictures of one size as an animated GIF of up to 256 colors, which repeats forever.
 @param path string  file to write
 @param pictures picture[]  frames in order, all of one size
 @param options? table  how long each picture is shown

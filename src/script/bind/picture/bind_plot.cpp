@@ -138,9 +138,9 @@ static int make_sheet(lua_State* L) {
 
 static const Entry plot_functions[] = {
     {"plot", guarded<make_plot>, R"(
-Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them; with `categories`, numbers
-over names, as bars next to each other. `false` and values that are not finite are left out, and a line has a gap there. Color-blind people can distinguish the colors. It needs no
-graphics hardware.
+Plots numbers over numbers: lines, points, and bars between edges, such as those of clench.stats.histogram; with `categories`, numbers
+over names, as bars next to each other. `false` and values that are not finite are left out, and leave a gap in a line. Color-blind people can distinguish the colors. No
+graphics hardware is needed.
 @param options table  the series and the axes
 @option series table[]  one table of these fields each
 @option series.name? string  shown in a legend
@@ -171,7 +171,7 @@ graphics hardware.
 > clench.plot{series = {{y = {1, 2}}}, y_scale = "log", y_range = {0, 1}}  --> error: y_range: expected numbers > 0 on a logarithmic axis, got 0 and 1
 > clench.plot{series = {{x = {1, 2}, y = {1}}}}  --> error: series 1: expected 1 values of x, as there are of y, got 2)"},
     {"sheet", guarded<make_sheet>, R"(
-Several pictures in one, in rows, each with its caption under it, and notes under all.
+Several pictures in one, in rows, each with its caption below it, and notes at the bottom.
 @param options table  the pictures and their texts
 @option pictures (picture|plot)[]  from left to right, and down
 @option captions? string[]  one per picture, of one or more lines
@@ -187,7 +187,7 @@ Several pictures in one, in rows, each with its caption under it, and notes unde
 
 static const Entry plot_fields[] = {
     {"picture", getter<[](const PlotHandle& x) { return paint(*x.drawing, Font()); }>, R"(
-It as pixels, on white.
+The figure as pixels, on white.
 @type picture
 > clench.plot{series = {{y = {1, 2}}}, width = 100, height = 80}.picture.width  --> 100)"},
     {"width", getter<[](const PlotHandle& x) { return x.drawing->width; }>, R"(
@@ -202,7 +202,7 @@ Its height [pixels].
 
 static const Entry plot_methods[] = {
     {"save", guarded<plot_save>, R"(
-Writes a file: .svg, whose lines and letters a program for papers can change, or .png.
+Writes a file: .svg, whose lines and letters drawing programs can edit, or .png.
 @param path string  file to write, .svg or .png
 @effect files
 > clench.plot{series = {{y = {1, 2}}}}:save "build/line.svg"

@@ -31,7 +31,8 @@ static Eye read_eye(Table& options, const Eye& from) {
   const Eigen::Vector3d back = eye.eye - eye.target;
   // a default up vector along the view is replaced
   if (options.has("up") && !(eye.up.cross(back).norm() > 1e-9 * back.norm() * eye.up.norm()))
-    fail("{}: expected eye and target apart, and up not along the view", options.subject());
+    fail("{}: expected different eye and target, and up in another direction than the view",
+         options.subject());
   return eye;
 }
 
@@ -117,7 +118,7 @@ Eye read_camera(lua_State* L, Table& options, const Scene& scene, const RenderOp
   return eye;
 }
 
-// reads size, quality and the camera, in a separate table or not, which must be all remaining
+// reads size, quality and the camera, given as a table or as single options; rejects all other
 // options
 View read_view(lua_State* L, Table& options, const Scene& scene) {
   View view{read_rendering(options), {}};
@@ -288,8 +289,8 @@ static std::string picture_text(const Picture& p) {
 
 static const Entry render_functions[] = {
     {"render", guarded<render_draw>, R"(
-Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of
-all soft contacts, without the cones, which would cover them. The camera looks at the objects that robots touch and the
+Draws a world: robots, objects, obstacles, and the friction cones where robots touch objects; with `patches`, the patches of
+all soft contacts instead of the cones, which would cover them. The camera looks at the objects that robots touch and the
 links of those robots, or at everything, unless it is given completely or in part. The same world gives the same bytes.
 It needs EGL and OpenGL, but no display. Data of a picture are cached for the next one, which is drawn faster.
 @param world world  world to draw
@@ -340,8 +341,8 @@ It needs EGL and OpenGL, but no display. Data of a picture are cached for the ne
 > clench.render(world, {cones = "force"})  --> error: 'force' needs the option forces
 > clench.render(world, {forces = {{force = {0, 0, 1}}}})  --> error: forces[1]: contact: expected a contact, got nothing)"},
     {"camera", guarded<choose_camera>, R"(
-The camera that clench.render chooses with the same options; of several states of a world, one for all of them, as for a film: it
-holds the objects that robots touch in some state, and those robots from the palm outward; if nothing is touched, everything.
+The camera that clench.render chooses with the same options; for several states of a world, one camera for all of them, as for a film: it
+shows the objects that robots touch in some state, and those robots from the palm outward; if nothing is touched, everything.
 @param worlds world|world[]  a list: states of one world, such as clones of it
 @param options? table  those of clench.render
 @like clench.render
@@ -398,8 +399,8 @@ Opacity of a pixel, 0 to 255: less than 255 where a transparent background shows
 > clench.render(world, {size = {64, 48}, quality = "draft"}):alpha(1, 1)  --> 255
 > clench.render(world, {size = {64, 48}, quality = "draft", background = "transparent"}):alpha(1, 1)  --> 0)"},
     {"pick", guarded<pick_pixel>, R"(
-The nearest surface under a pixel of a picture of a world, as the world was when it was drawn; transparent bodies count. nil if
-there is none. `body` and `other` are nil if they were removed since.
+The nearest surface under a pixel of a picture of a world, in the state in which it was drawn; transparent bodies count. nil if
+there is none. `body` and `other` are nil if they have been removed since.
 @param x index  column, from the left
 @param y index  row, from the top
 @return table? picked  {kind: string, body?: body, other?: body, point: vec3, normal: vec3, distance: number}  kind: "body"; "contact" (a cone) or "patch", where body is touched by other; "approach", where body is the base of the robot; "force"; "floor"; or "other"; point: [m]; normal: unit, to the side of the camera; distance: from the camera [m]

@@ -29,7 +29,8 @@ Pose camera_pose(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
   const Eigen::Vector3d back = eye - target;
   const auto rotation = rotation_from_axes(2, back, 1, up);
   if (!(back.norm() > 1e-9) || !rotation)
-    fail("{}: expected eye and target apart, and up not along the view", subject);
+    fail("{}: expected different eye and target, and up in another direction than the view",
+         subject);
   const Pose pose{*rotation, eye};
   check_place(pose, subject);
   return pose;

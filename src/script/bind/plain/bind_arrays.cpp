@@ -103,7 +103,7 @@ static int arrays(lua_State* L) {
 
 static const Entry arrays_functions[] = {
     {"save_arrays", guarded<save_arrays>, R"(
-Writes lists of numbers, or of rows of numbers, as NumPy's arrays: `numpy.load` gives them by their names.
+Writes lists of numbers, or of rows of numbers, as NumPy arrays, which `numpy.load` returns by their names.
 @param path string  .npz
 @param arrays table<string, number[]|number[][]>  arrays by name, of one or two dimensions
 @param options? table  how it is written
@@ -113,7 +113,7 @@ Writes lists of numbers, or of rows of numbers, as NumPy's arrays: `numpy.load` 
 > clench.files.save_arrays("build/arrays.npz", {time = {0, 0.5}}, {compress = true})
 > clench.files.save_arrays("build/arrays.npz", {time = {0, "x"}})  --> error: time[2]: expected a number, got 'x')"},
     {"arrays", guarded<arrays>, R"(
-The arrays of such a file: lists of numbers or texts, or of rows, all indices but the first in one.
+The arrays of such a file: lists of numbers or texts, or lists of rows. All indices but the first are combined into one.
 @param path string  .npz
 @param options? table  how the file is read
 @like clench.load  root, confine, strict, unit, mesh_scale

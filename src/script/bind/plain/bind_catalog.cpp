@@ -108,7 +108,7 @@ static int kind_of_file(lua_State* L) {
 
 static const Entry catalog_functions[] = {
     {"file_kind", guarded<kind_of_file>, R"(
-Kind of a file's contents, by its ending, or by its outermost element in XML; if the ending does not define it, by the layout of its
+Kind of a file's contents, by its ending, or in XML by its root element; if the ending leaves it open, by the layout of its
 numbers.
 @param path string  file to inspect
 @param options? table  how the file is read

@@ -66,7 +66,7 @@ static const Entry convert_functions[] = {
     {"convert", guarded<convert>, R"(
 Converts a file to another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as
 .urdf, robots and worlds as scenes of MuJoCo, .xml .mjcf, or as .wld .lua, eigengrasps as .egr .xml, virtual contacts as .vgr .xml,
-lists of grasps as .jsonl .csv .npz .yaml, or as `format` says. Warnings name everything that the format cannot represent.
+lists of grasps as .jsonl .csv .npz .yaml, or in the given `format`. Warnings name everything that the format cannot represent.
 @param from string  file to read
 @param to string  file to write; its ending selects the format
 @param options? table  how the file is read and written

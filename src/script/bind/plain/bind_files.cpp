@@ -230,8 +230,8 @@ Eigengrasps from .egr or .xml. Give them to a hand: hand.eigengrasps = set.
 @effect files
 > clench.files.eigengrasps "no.egr"  --> error: no such file: no.egr)"},
     {"virtual_contacts", guarded<virtual_contacts>, R"(
-Virtual contacts from .vgr or .xml. Give them to a hand: hand.virtual_contacts = list. `chain` and `link` count from 1,
-chain 0 is the base; `frame` is in the link's, +z out of it; `robot` of the list is the hand they were made for.
+Virtual contacts from .vgr or .xml. Give them to a hand: hand.virtual_contacts = list. `chain` and `link` count from 1;
+chain 0 is the base. `frame` is in the link frame, +z out of the link; `robot` of the list is the hand for which they were made.
 @param path string  file to read
 @param options? table  how the file is read
 @like clench.load  root, confine, strict, unit, mesh_scale
@@ -243,8 +243,8 @@ chain 0 is the base; `frame` is in the link's, +z out of it; `robot` of the list
 > os.remove(path)
 > #list == #hand.virtual_contacts, list.robot == hand.name  --> true, true)"},
     {"object_contacts", guarded<object_contacts>, R"(
-Contacts on an object, as GraspIt! stores them. `placed` is false, and the frame at the origin, if the file leaves the
-points out.
+Contacts on an object, as GraspIt! stores them. `placed` is false, and the frame at the origin, if the file omits
+the points.
 @param path string  file to read
 @param options? table  how the file is read
 @like clench.load  root, confine, strict, unit, mesh_scale
@@ -252,7 +252,7 @@ points out.
 @effect files
 > clench.files.object_contacts "no.txt"  --> error: no such file)"},
     {"save_object_contacts", guarded<save_object_contacts>, R"(
-Writes contacts on an object; without `edges` those of a point.
+Writes contacts on an object; without `edges`, those of a point contact.
 @param path string  file to write
 @param list table[]  contacts in the object's frame
 @option frame pose  z along the normal
@@ -267,8 +267,8 @@ Writes contacts on an object; without `edges` those of a point.
 > os.remove(path)
 > list[1].mu, #list[1].edges, list[1].placed  --> 0.5, 8, true)"},
     {"primitives", guarded<primitives>, R"(
-Boxes, spheres, cylinders and cones in an Inventor or VRML file, in its frame. Of an object's file those in
-primitives/<its name>.iv next to it are read instead, if that exists. y is the axis of cylinder and cone.
+Boxes, spheres, cylinders and cones of an Inventor or VRML file, in its frame. For an object's file, those of
+primitives/<its name>.iv next to it are read instead, if that file exists. y is the axis of cylinder and cone.
 @param path string  file to read
 @param options? table  how the file is read
 @like clench.load  root, confine, strict, unit, mesh_scale
@@ -294,15 +294,15 @@ Pre-grasps of a planner's list, in the object's frame.
 > os.remove(path)
 > list[1].direction, list[1].spread  --> (0, 0, -1), 1.0)"},
     {"save_text", guarded<save_text>, R"(
-Writes a text as a file, completely or not at all: if it fails, an existing file is unchanged.
+Writes a text to a file, completely or not at all: on failure an existing file is unchanged.
 @param path string  file to write
 @param text string  contents of the file
 @effect files
 > clench.files.save_text("build/note.txt", "held")
 > clench.files.save_text("no/such/folder/a.txt", "")  --> error: no such folder: no/such/folder)"},
     {"append_text", guarded<append_text>, R"(
-Appends a text on a separate line, whose end is added, in one system call: a process that is killed leaves all of it
-or nothing, and on a full disk no part remains. Creates the file if necessary.
+Appends a text as a separate line, and the end of that line, in one system call: a process that is killed leaves all of it
+or nothing, and a full disk leaves no part of it. Creates the file if necessary.
 @param path string  file to append to
 @param text string  text to append
 @effect files
@@ -314,7 +314,7 @@ or nothing, and on a full disk no part remains. Creates the file if necessary.
 > text == "one\ntwo\n"  --> true
 > clench.files.append_text("no/such/folder/a.txt", "")  --> error: no such folder: no/such/folder)"},
     {"check_writable", guarded<check_writable_file>, R"(
-Checks that a file could be written there, before long work for instance: its folder exists, both may be written, and it is no
+Checks that a file can be written there, for instance before long work: its folder exists, both are writable, and it is no
 folder, pipe or device. Changes no file.
 @param path string  file that is to be written
 @effect files
@@ -332,7 +332,7 @@ The bytes of a file, of at most 1 GB. Folders, pipes, devices and sockets are re
 > clench.files.read_text "build/note.txt"  --> held
 > clench.files.read_text "/dev/zero"  --> error: expected a file, got a special file: /dev/zero)"},
     {"csv_records", guarded<csv_records>, R"(
-Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of what is in them.
+Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of their values.
 @param name string  for errors
 @param text string  contents of a CSV file
 @param separator? string  "," by default, ";" or a tab
@@ -342,7 +342,7 @@ Cells of a text of comma-separated values, line by line, as texts; clench.csv re
 > #records, records[1][2], records[1].quoted[2], records[2].line  --> 2, 7, true, 2
 > clench.files.csv_records("a.csv", '"a')  --> error: a.csv:1: a quote that is not closed)"},
     {"csv_text", guarded<csv_text>, R"(
-A text as a cell of comma-separated values: in quotes if it would otherwise be read differently, or as a number, true or false.
+A text as a cell of comma-separated values: quoted if it would otherwise be read differently, or as a number, true or false.
 @param text string  text of the cell
 @param separator? string  "," by default, ";" or a tab
 @return string
@@ -367,7 +367,7 @@ Calibration of a data glove, from raw numbers to DOF values: DOF = intercept + s
 @effect files
 > clench.files.glove_calibration "no.txt"  --> error: no such file)"},
     {"glove_poses", guarded<glove_poses>, R"(
-Postures that a glove was calibrated from: raw `sensors`, the `dof_of_sensor` (0: not used), `joints` [rad], the
+Postures from which a glove was calibrated: raw `sensors`, the `dof_of_sensor` (0: not used), `joints` [rad], the
 `distance` of fingertips that were meant to touch [m], and the hand's `pose`.
 @param path string  file to read
 @param options? table  how the file is read

@@ -228,7 +228,7 @@ static int collect(lua_State* L) {
 
 static const Entry log_functions[] = {
     {"collect", guarded<collect>, R"(
-Calls a function, and returns the messages logged meanwhile as values. Notes, warnings and errors are collected at every level; nothing is printed, and no sink is called.
+Calls a function, and returns the messages logged during the call as values. Notes, warnings and errors are collected at every level; nothing is printed, and no sink is called.
 @param f function  function to call
 @param ... any  its arguments
 @return {severity: "note"|"warning"|"error", text: string, file?: string, line?: integer, subject?: string, about?: string, count: integer}[] diagnostics  file and line: the place in a file that is read or written; subject: the part of it that is concerned, "joint 2"; about: "inferred", "ignored", "repaired" or "suspicious"; equal problems of one file are one, the first, with their count
@@ -270,7 +270,7 @@ Logs an error, and continues.
 > clench.log.sink()
 > said  --> error: the glove does not answer)"},
     {"level", guarded<level>, R"(
-Says from which level on messages are shown, and sets it if one is given.
+Sets the level from which on messages are shown, if one is given; returns the previous one.
 @param name? "debug"|"info"|"warning"|"error"|"quiet"  least severe level that is printed; without it the level stays
 @return string before
 @effect edits

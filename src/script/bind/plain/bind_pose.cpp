@@ -248,7 +248,7 @@ The pose of a camera at `eye` that sees `target`: it looks along its -z, with y 
 @return pose
 @effect reads
 > clench.look_at({1, 0, 0}, {0, 0, 0}):rotate{0, 0, -1}  --> (-1, 0, 0)
-> clench.look_at({0, 0, 1}, {0, 0, 0})  --> error: expected eye and target apart, and up not along the view)"},
+> clench.look_at({0, 0, 1}, {0, 0, 0})  --> error: expected different eye and target, and up in another direction than the view)"},
 };
 
 static const Entry pose_fields[] = {

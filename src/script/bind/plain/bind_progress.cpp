@@ -85,7 +85,7 @@ static std::string progress_text(const ProgressHandle& progress) {
 
 static const Entry progress_functions[] = {
     {"progress", guarded<new_progress>, R"(
-Shows how far a loop is: a bar on a terminal, with the time that is left; nothing in a pipe or a file. Over a number or a list
+Shows the progress of a loop: a bar with the remaining time on a terminal; nothing in a pipe or a file. Over a number or a list
 it is the loop itself, `for i, item in clench.progress(list)`; elsewhere call `step`. It disappears at the loop's end,
 or by `close`.
 @param total? integer|any[]  how many steps, or what to go through; without, only the text is shown
@@ -101,7 +101,7 @@ or by `close`.
 
 static const Entry progress_methods[] = {
     {"step", guarded<progress_step>, R"(
-Counts so many more steps as done.
+Counts the given number of steps as done.
 @param count? number  default 1
 @param text? string  shown beside the bar from now on
 @effect edits
@@ -119,11 +119,11 @@ Removes the bar; a variable declared <close> does so automatically.
 
 static const Entry progress_fields[] = {
     {"done", getter<[](const ProgressHandle& x) { return x.done; }>, R"(
-Steps that are done.
+Number of steps that are done.
 @type number
 > clench.progress(10).done  --> 0.0)"},
     {"total", getter<[](const ProgressHandle& x) { return x.total; }>, R"(
-Steps in all; 0 when that is not known.
+Total number of steps; 0 if unknown.
 @type number
 > clench.progress(10).total  --> 10.0)"},
 };

@@ -57,7 +57,7 @@ static int rotation(lua_State* L) {
 
 static const Entry random_functions[] = {
     {"random", guarded<make_random>, R"(
-A stream of random numbers, fixed by a seed and the stream's number, the same on every machine.
+A stream of random numbers, determined by a seed and the stream's number, and equal on every machine.
 @param seed integer  seed of the numbers: the same seed gives the same numbers
 @param item? integer  which of many streams, default 0
 @return random
@@ -76,12 +76,12 @@ A number from low (included, default 0) to high (excluded, default 1).
 > x = clench.random(7):uniform(2, 3)
 > x >= 2 and x < 3  --> true)"},
     {"normal", method<[](Random& x) { return x.normal(); }>, R"(
-A number of the normal distribution with mean 0 and deviation 1.
+A normally distributed number with mean 0 and standard deviation 1.
 @return number
 @effect edits
 > math.abs(clench.random(7):normal()) < 6  --> true)"},
     {"integer", guarded<integer>, R"(
-An integer from low to high, both included, each as likely.
+An integer from low to high, both included, uniformly distributed.
 @param low integer  smallest result
 @param high integer  largest result
 @return integer
@@ -89,12 +89,12 @@ An integer from low to high, both included, each as likely.
 > clench.random(7):integer(4, 4)  --> 4
 > clench.random(7):integer(5, 4)  --> error: expected low <= high, got 5 and 4)"},
     {"direction", guarded<direction>, R"(
-A unit vector, each direction as likely.
+A unit vector, uniformly distributed.
 @return vec3
 @effect edits
 > math.abs(clench.random(7):direction():norm() - 1) < 1e-15  --> true)"},
     {"rotation", guarded<rotation>, R"(
-A pose at the origin, each rotation as likely.
+A pose at the origin with a uniformly distributed rotation.
 @return pose
 @effect edits
 > clench.random(7):rotation().position  --> (0, 0, 0))"},

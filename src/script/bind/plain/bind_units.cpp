@@ -54,7 +54,7 @@ Millimeters to meters.
 @effect reads
 > clench.mm(25)  --> 0.025)"},
     {"clock", guarded<clock_now>, R"(
-Seconds of a clock that runs evenly from some moment: how long something took.
+Seconds of a monotonic clock with an arbitrary origin, to measure durations.
 @return number  [s]
 @effect reads
 > before = clench.clock()

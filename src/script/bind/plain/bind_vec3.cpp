@@ -73,7 +73,7 @@ static std::array<double, 3> numbers_of(const Vector3d& v) { return {v.x(), v.y(
 
 static const Entry vec3_functions[] = {
     {"vec3", guarded<make_vec3>, R"(
-A vector of three finite numbers, from a list or one by one. Wherever a vec3 is expected, {x, y, z} will do.
+A vector of three finite numbers, from a list or one by one. Wherever a vec3 is expected, {x, y, z} is accepted.
 @param x? number[]|number  first component, or a list of all three; without it all are 0
 @param y? number  second component, when they are given one by one
 @param z? number  third component

@@ -90,7 +90,7 @@ int make_annealing(lua_State* L) {
   lua_pop(L, 1);
   options.done();
   if (about && about->lineage() != world->lineage())
-    fail("{}: energy: it is about another world", options.subject());
+    fail("{}: energy: it belongs to another world", options.subject());
   const CallingState calling(L);
   return push_object(
       L, AnnealingHandle{world, std::make_shared<Annealing>(*world, who, std::move(space),
@@ -209,7 +209,7 @@ std::string annealing_text(const AnnealingHandle& x) {
 
 static const Entry annealing_functions[] = {
     {"annealing", guarded<make_annealing>, R"(
-A chain of simulated annealing, to be run step by step: the search used by `clench.plan`. It moves the world's hand.
+A chain of simulated annealing, run step by step: the search used by `clench.plan`. It moves the world's hand.
 @param options table  the hand, the object, and the variables of the search
 @option hand robot  hand that the search moves
 @option object body  object that is grasped
@@ -249,7 +249,7 @@ Runs several chains at once, each in a separate world; their results do not depe
 > b = clench.annealing {world = world:clone(), hand = hand, object = flask, energy = energy, seed = 1}
 > clench.run_annealings({a, b}, {50, 50}, 2)  --> {50, 50}
 > a.energy == b.energy  --> true
-> clench.run_annealings({a, a}, {5, 5})  --> error: need a world each)"},
+> clench.run_annealings({a, a}, {5, 5})  --> error: need separate worlds)"},
 };
 
 static const Entry annealing_fields[] = {
@@ -280,7 +280,7 @@ Energy of the initial state.
 > clench.annealing {hand = hand, object = flask, energy = function() return 2 end}.first_energy  --> 2.0)"},
     {"counts", guarded<get_counts>, R"(
 Counts of its steps: `steps`, `accepted`, `improved`; and of rejected neighbors: `in_collision`, `avoided`, `outside`
-their ranges; `stuck`: number of steps in which all attempts failed.
+(their ranges); `stuck`: number of steps in which all attempts failed.
 @type table
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
 > search:run(5)
@@ -297,7 +297,7 @@ Takes steps, each to a legal neighbor that is accepted or not.
 > search:run(3)  --> 3
 > search:run(-1)  --> error: steps must be >= 0, got -1)"},
     {"avoid", guarded<avoid>, R"(
-Goes around a state from now on: its like are illegal.
+Avoids a state from now on: states similar to it are illegal.
 @param state table  as `best` lists them; other fields of such an item are ignored
 @option pose pose  of the hand, in the object
 @option dofs number[] [rad or m]  of the hand
@@ -309,7 +309,7 @@ Goes around a state from now on: its like are illegal.
 > search:avoid(search.best[1])
 > search:run(5), search.counts.avoided > 0  --> 5, true)"},
     {"go_to", guarded<go_to>, R"(
-Goes to a state, or as near as its variables can.
+Sets a state, or the nearest one that its variables can represent.
 @param state table  as `best` lists them; other fields of such an item are ignored
 @like search:avoid
 @return table values
@@ -317,7 +317,7 @@ Goes to a state, or as near as its variables can.
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
 > search:go_to {pose = flask.pose:inverse() * hand.pose, dofs = hand.dofs}.alpha >= 0  --> true)"},
     {"reset", method<[](const AnnealingHandle& x) { x.search->reset_schedule(); }>, R"(
-Begins the schedule of temperatures anew.
+Restarts the schedule of temperatures.
 @effect edits
 > search = clench.annealing {hand = hand, object = flask, energy = function() return 2 end}
 > search:reset()

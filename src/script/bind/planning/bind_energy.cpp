@@ -294,7 +294,7 @@ normal_weight (1 - cosine of the angle). Does not close the hand: the fastest en
 > clench.energy.contact {hand = hand}  --> error: object: expected a body, got nothing
 > clench.energy.contact {hand = hand, object = hand.base}  --> error: the object is a part of a robot)"},
     {"potential_quality", guarded<potential_quality>, R"(
-Grasp quality of the virtual contacts if they touched, with more weight on nearer ones: minus epsilon of their forces (with
+Grasp quality of the virtual contacts as if they touched, with larger weights for nearer ones: minus epsilon of their forces (with
 `torques`, of their wrenches). 1 if fewer than min_count are near and face the object, or if they do not resist all directions.
 @param options table  the hand, the object and how they are rated
 @option hand robot  hand that grasps
@@ -322,7 +322,7 @@ potential_quality if that is at most 0, otherwise contact, which guides the sear
 > clench.energy.guided_potential_quality {hand = hand, object = flask}() < 1000  --> true)"},
     {"autograsp_quality", guarded<autograsp_quality>, R"(
 Closes the hand, and opens it again: minus (volume_weight * volume + epsilon_weight * epsilon) of the grasp; with
-`tasks`, also minus task_weight times the largest multiple of all these wrenches on the object that it resists.
+`tasks`, also minus task_weight times the largest multiple of all these wrenches that the grasp resists.
 @param options table  the hand, the object and how they are rated
 @option hand robot  hand that grasps
 @option object body  object that is grasped
@@ -337,7 +337,7 @@ Closes the hand, and opens it again: minus (volume_weight * volume + epsilon_wei
 > math.abs(e() + grasp:quality "epsilon") < 1e-6  --> true)"},
     {"guided_autograsp_quality", guarded<guided_autograsp_quality>, R"(
 contact and, if two virtual contacts are near the object and face it, minus volume_weight times the volume of the
-closed grasp. The default reproduces the numbers of GraspIt!, which has the wrong sign of the angle; `facing = "nearest"` is the
+closed grasp. The default reproduces the numbers of GraspIt!, in which the angle has the wrong sign; `facing = "nearest"` is the
 correct one.
 @param options table  the hand, the object and how they are rated
 @option hand robot  hand that grasps
@@ -351,7 +351,7 @@ correct one.
 @effect reads
 > clench.energy.guided_autograsp_quality {hand = hand, object = flask}() < 1000  --> true)"},
     {"strict_autograsp", guarded<strict_autograsp>, R"(
-autograsp_quality after an approach of 30 mm that ends at a touch; if the base touches nothing then, the hand stays
+autograsp_quality after an approach of 30 mm that ends at the first contact; if the base then touches nothing, the hand stays
 at its start. 1e8 if the grasp has no quality.
 @param options table  the hand, the object and how they are rated
 @option hand robot  hand that grasps
@@ -378,7 +378,7 @@ min_epsilon.
 > clench.energy.compliant {hand = hand, object = flask}() <= 1  --> true)"},
     {"dynamic", guarded<dynamic>, R"(
 Result of shaking the closed hand in simulation: minus the sum over six directions of the fraction of the time that the object was held
-in study.shake, down to -6; if the closed hand is not in force closure, or loses the object before, 1 + contact, which guides the search. It runs on
+in study.shake, down to -6; if the closed hand is not in force closure, or loses the object before the shaking, 1 + contact, which guides the search. It runs on
 one thread, and takes some tenths of a second if the hand holds something.
 @param options table  the hand and the object
 @option hand robot  hand that grasps
@@ -430,7 +430,7 @@ Distance of the hand's approach point from a point, beyond a radius [mm].
 @effect reads
 > clench.energy.reach {hand = hand, point = hand.approach.point, radius = 0.1}()  --> 0.0)"},
     {"penetration", guarded<penetration>, R"(
-Penetration depth of the hand in colliding bodies, by points on its bodies, summed over the pairs of bodies [mm]; 0 only where
+Penetration depth of the hand in colliding bodies, measured at points on its bodies, summed over the pairs of bodies [mm]; 0 only if
 nothing collides. If no point lies inside, the depth given by `world:penetration` is used. A search with this term and `collisions = false` may cross states that collide.
 @param options table  the hand and the points
 @option hand robot  hand that may collide
@@ -442,7 +442,7 @@ nothing collides. If no point lies inside, the depth given by `world:penetration
 
 static const Entry energy_fields[] = {
     {"any_thread", getter<[](const EnergyHandle& x) { return x.energy->any_thread(); }>, R"(
-Does it consist only of the engine's terms? One with a function of a script runs on the script's thread, and in its world.
+Does it consist only of the engine's terms? A term with a function of a script runs on the script's thread, and in its world.
 @type boolean
 > e = clench.energy.contact {hand = hand, object = flask}
 > e.any_thread, (e + function() return 1 end).any_thread  --> true, false)"},
@@ -450,7 +450,7 @@ Does it consist only of the engine's terms? One with a function of a script runs
 
 static const Entry energy_methods[] = {
     {"within", guarded<within>, R"(
-The same, but never below `low` nor above `high`; nil: no such bound.
+The same term, clamped to at least `low` and at most `high`; nil: no such bound.
 @param low? number  lower bound
 @param high? number  upper bound
 @return energy

@@ -1,4 +1,4 @@
-// clench.open_serial, clench.open_pty, ...: streams of bytes and those who accept them, for
+// clench.open_serial, clench.open_pty, ...: streams of bytes and acceptors of clients, for
 // stdlib/port.
 #include <fcntl.h>
 #include <unistd.h>
@@ -243,8 +243,8 @@ int save_secret(lua_State* L) {
   return 0;
 }
 
-// The path with its first link replaced by the link's target; the path itself if it has none. Of a
-// path without links to what exists, that is a link to nothing, which writing would follow.
+// The path with its first link replaced by the link's target; the path itself if it has none. In a
+// canonical path, only a dangling link remains, which writing would follow.
 static std::filesystem::path through_link(const std::filesystem::path& path) {
   std::filesystem::path before, after;
   for (const auto& part : path) {
@@ -260,7 +260,7 @@ static std::filesystem::path through_link(const std::filesystem::path& path) {
   return after.empty() ? path : after;
 }
 
-// canonical(path): the absolute path without links, also without those that lead to nothing
+// canonical(path): the absolute path with all links replaced, also dangling ones
 int canonical_path(lua_State* L) {
   const std::string path = check_string(L, 1, "path");
   constexpr int most_links = 40;

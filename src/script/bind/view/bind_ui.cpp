@@ -317,7 +317,7 @@ Closes the window.
 > ui:close()
 > ui:read()  --> error: the screen was closed)"},
     {"keep_open", guarded<ui_keep_open>, R"(
-Answers a request to close the window: it stays open.
+Rejects a request to close the window: it stays open.
 @effect edits
 > ui:input {kind = "close"}
 > ui:frame(0.01, function() end)

@@ -148,7 +148,7 @@ A window with contents.
 > ui:frame(0.01, function(ui) open = ui:window("w", {can_close = true}, function() end) end)
 > open  --> true)"},
     {"child", guarded<ui_child>, R"(
-A part of a window that scrolls by itself.
+A part of a window that scrolls separately.
 @param id string  unique name
 @param options table  size and look
 @option width? number [pixels] = 0  0: all that is left; below 0: less than that
@@ -208,21 +208,21 @@ Closes the popup that is being described.
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:open_popup "more" ui:popup("more", function() ui:close_popup() end) end) end)
 > #ui.items  --> 1)"},
     {"disabled", guarded<ui_disabled>, R"(
-Widgets that are gray if `disabled` is true.
+Widgets that are disabled, and gray, if `disabled` is true.
 @param disabled boolean  are they?
 @param draw fun(ui: ui)  describes the widgets
 @effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:disabled(true, function() ui:button "go" end) end) end)
 > ui.items[#ui.items].enabled  --> false)"},
     {"id", guarded<ui_id>, R"(
-Widgets whose labels may equal others'.
+A scope for labels: those of its widgets may equal labels outside it.
 @param id string  unique name
 @param draw fun(ui: ui)  describes the widgets
 @effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:id("a", function() ui:button "go" end) ui:id("b", function() ui:button "go" end) end) end)
 > #ui.items  --> 3)"},
     {"group", guarded<ui_group>, R"(
-Widgets that are laid out as one.
+Widgets laid out as one.
 @param draw fun(ui: ui)  describes the widgets
 @effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:group(function() ui:text "a" ui:text "b" end) end) end)
@@ -268,7 +268,7 @@ A table, filled cell by cell after next_column.
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:table("t", {"a", "b"}, {}, function() ui:next_column() ui:text "1" end) end) end)
 > ui:table("t", {"a"}, {}, print)  --> error: expected a call within ui:frame)"},
     {"next_column", guarded<ui_next_column>, R"(
-Goes on to the next cell of a table.
+Moves on to the next cell of a table.
 @effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:table("t", {"a", "b"}, {}, function() for i = 1, 4 do ui:next_column() ui:text(tostring(i)) end end) end) end)
 > ui:next_column()  --> error: expected a call within ui:frame)"},

@@ -333,7 +333,7 @@ A text that is typed.
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() value, changed = ui:text_input("name", "mug") end) end)
 > value, changed  --> mug, false)"},
     {"combo", guarded<ui_combo>, R"(
-A list of which one is chosen.
+A list from which one entry is chosen.
 @param label string  text beside it
 @param index index?  number of the chosen one
 @param choices string[]  texts
@@ -343,7 +343,7 @@ A list of which one is chosen.
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() index, changed = ui:combo("c", 2, {"a", "b"}) end) end)
 > index, changed  --> 2, false)"},
     {"progress", guarded<ui_progress>, R"(
-A bar of progress.
+A progress bar.
 @param fraction number [0 to 1]  part that is done
 @param text? string  on the bar
 @param width? number [pixels]  all that is left by default

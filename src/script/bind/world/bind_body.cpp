@@ -49,7 +49,7 @@ static std::string body_text(const BodyHandle& body) {
 
 static const Entry body_fields[] = {
     {"name", getter<[](const BodyHandle& x) { return x->name; }>, R"(
-Unique in its world.
+Name, unique in its world.
 @type string
 > flask.name = "bottle"
 > world:body("bottle") == flask  --> true)",
@@ -70,16 +70,16 @@ The robot that it is a part of; nil for objects and obstacles.
 @type robot?
 > hand.links[1].robot == hand  --> true)"},
     {"bounds_in_world", getter<body_bounds>, R"(
-Least and largest coordinates of its surface in the world frame; nil when it has none.
+Minimum and maximum coordinates of its surface in the world frame; nil if it has none.
 @type {low: vec3, high: vec3}?  [m]
 > box = world:add_object(clench.shapes.box {1, 2, 4}, {pose = {xyz = {9, 0, 0}, rpy = {0, 0, clench.rad(90)}}})
 > (box.bounds_in_world.high - clench.vec3(10, 0.5, 2)):norm() < 1e-12  --> true)"},
     {"source", getter<[](const BodyHandle& x) { return x->source; }>, R"(
-File that it was read from; empty when it was made by a script.
+File from which it was read; empty if a script made it.
 @type string
 > world:add_object(clench.shapes.box {1, 1, 1}).source == ""  --> true)"},
     {"tracker", getter<[](const BodyHandle& x) { return x->tracker; }>, R"(
-Number of the position sensor that is to move it; nil when its file names none.
+Number of the position sensor that should move it; nil if its file names none.
 @type integer?
 > flask.tracker  --> nil)"},
 };
@@ -105,7 +105,7 @@ The same body in a clone of its world, or in the world of which its own is a clo
 > flask:in_world(clench.world())  --> error: expected a clone of its world)"},
     {"move_to", guarded<body_move_to>, R"(
 Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that
-remains is within the contact threshold. One that starts in contact may slide or move away, but not inwards.
+remains is within the contact threshold. A body that starts in contact may slide along it or move away, but not move inwards.
 @param pose pose  target pose in the world
 @return table result  `fraction` of the way gone, `touched`, `stopped_by` (pairs), `iteration_limit` (after a million steps), `queries`
 @effect edits

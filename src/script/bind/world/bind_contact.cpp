@@ -42,7 +42,7 @@ static void tell_sharp(lua_State* L, const ContactHandle& c, const SoftPatch& pa
   if (!patch.at_edge) return;
   const Eigen::Vector3d p = c.contact.X_WA * patch.center_A;
   log_warning(L, fmt::format("soft contact of {} on {} at ({:.6g}, {:.6g}, {:.6g}): there is a "
-                             "corner or an edge, whose patch is a guess",
+                             "corner or an edge, so its patch is an estimate",
                              c.world->body(c.contact.other).name,
                              c.world->body(c.contact.body).name, p.x(), p.y(), p.z()));
 }
@@ -99,7 +99,7 @@ static const Entry contact_fields[] = {
        return BodyHandle{c.world, c.contact.body};
      }>,
      R"(
-The body that is touched: the object, of a hand and an object.
+The touched body; between a hand and an object, the object.
 @type body
 > world:contacts(hand, flask)[1].body == flask  --> true)"},
     {"other", getter<[](const ContactHandle& c) {
@@ -133,12 +133,12 @@ It stays the same while the contact moves along it, so that contacts can be matc
 > kinds = {vertex = true, edge = true, triangle = true, round = true}
 > kinds[grasp.contacts[1].feature.kind]  --> true)"},
     {"other_feature", getter<[](const ContactHandle& x) { return x.contact.other_feature; }>, R"(
-The same of the mesh of `other`.
+The corresponding feature of the mesh of `other`.
 @type {kind: "vertex"|"edge"|"triangle"|"round", vertices?: index[], triangle?: index, piece?: index}
 > kinds = {vertex = true, edge = true, triangle = true, round = true}
 > kinds[grasp.contacts[1].other_feature.kind]  --> true)"},
     {"gap", getter<[](const ContactHandle& x) { return x.contact.gap; }>, R"(
-Distance of the two surfaces there, at most the world's contact threshold.
+Distance of the two surfaces at the contact, at most the world's contact threshold.
 @type number  [m]
 > world:contacts(hand, flask)[1].gap <= world.contact_threshold  --> true)"},
     {"force", getter<[](const ContactHandle& x) { return x.contact.force_W; }>, R"(
@@ -159,14 +159,14 @@ Kinetic Coulomb coefficient of the two materials.
 @type number
 > world:contacts(hand, flask)[1].mu_kinetic >= 0  --> true)"},
     {"kind", getter<[](const ContactHandle& x) { return kind_name(x.contact.kind); }>, R"(
-"point" (with friction), "soft" (with friction, of bodies one of which at least is elastic) or "frictionless".
+"point" (with friction), "soft" (with friction, and at least one body is elastic) or "frictionless".
 @type string
 > world:contacts(hand, flask)[1].kind  --> point
 > flask.elastic_modulus = 1.5e6
 > world:contacts(hand, flask)[1].kind  --> soft)"},
     {"patch", guarded<get_patch>, R"(
-The surfaces around a soft contact, and the torsional friction that it transmits; nil for others. Contacts of two bodies
-whose neighborhoods overlap have one patch. A corner or an edge is logged as a warning.
+The surfaces around a soft contact, and the torsional friction that it transmits; nil for other kinds. Contacts of two bodies
+whose neighborhoods overlap share one patch. A warning is logged at corners and edges.
 @type patch?
 > world:contacts(hand, flask)[1].patch  --> nil
 > flask.elastic_modulus = 1.5e6
@@ -175,7 +175,7 @@ whose neighborhoods overlap have one patch. A corner or an edge is logged as a w
 
 static const Entry contact_methods[] = {
     {"fit_patch", guarded<fit_patch>, R"(
-The patch of a soft contact by options of one's own; nil of others.
+The patch of a soft contact, fitted with other options; nil for other kinds.
 @param options? table  where and how the surface is fitted
 @option radius? number [m, > 0]  how far around the contact, by default 0.4 m / cbrt(larger modulus in Pa), and 5 mm where that is not between 3 and 10 mm, an error where there is nothing to fit
 @option max_radius? number [m, > 0] = 0.02  stands for a relative radius that is none

@@ -235,27 +235,27 @@ The same values by the names of dof_names; a copy, set as by set_dofs.
 > hand.dofs[2]  --> 0.1)",
      guarded<set_dofs>},
     {"dof_limits", getter<dof_limits>, R"(
-Least and largest value of each DOF. Nothing stops one that is endless in dof_info: its range, a turn or a meter on
-either side of its present value, limits only closing and searches.
+Minimum and maximum of each DOF. A DOF that is endless in dof_info is not bounded by its range, a turn or a meter on
+either side of its present value, except in closing and searches.
 @type number[][]  [rad or m]
 > #hand.dof_limits[1]  --> 2)"},
     {"dof_info", guarded<get_dof_info>, R"(
 Data of each DOF from its file: name, if it has one, kind ("rigid", "breakaway", "compliant"), default_velocity
 of closing [rad/s or m/s], max_effort [N m or N] (0: nothing limits it), max_velocity, if known, kp, kd, damping_ratio, where
-there is one, which adds 2 damping_ratio sqrt(kp inertia) to kd, breakaway_torque [N m],
-driven: false of a DOF that no actuator of an MJCF file can move (there is none, or its gear, gain or range is 0), and endless:
+if it has one, which adds 2 damping_ratio sqrt(kp inertia) to kd, breakaway_torque [N m],
+driven: false for a DOF that no actuator of an MJCF file can move (there is none, or its gear, gain or range is 0), and endless:
 true for one without limits. can_close: its motor can push in the direction of default_velocity. effort_ranges has the efforts that the motors can exert.
 @type table[]
 > hand.dof_info[1].kind  --> rigid)"},
     {"effort_ranges", guarded<get_effort_ranges>, R"(
 Minimum and maximum effort that the motor of each DOF can exert at rest at its present value; math.huge if no limit is given,
-{0, 0} of a DOF that is not driven. Limits are max_effort of dof_info in both directions and, of MJCF files, gear, gain,
+{0, 0} for a DOF that is not driven. Limits are max_effort of dof_info in both directions and, for MJCF files, gear, gain,
 bias, control range and force range of the actuators. Contact forces with torque_limits, verified grasps and
 the motors of world:run stay within them.
 @type number[][]  [N m or N]
 > hand.effort_ranges[1]  --> {-5.0, 5.0})"},
     {"max_effort", guarded<get_max_effort>, R"(
-Largest effort, in both directions, of motors for which the file gives no limit; nil: unlimited.
+Maximum effort, in both directions, of motors for which the file gives no limit; nil: unlimited.
 @type number?  [N m or N]
 > hand.max_effort  --> nil
 > hand.max_effort = 5
@@ -264,7 +264,7 @@ Largest effort, in both directions, of motors for which the file gives no limit;
 > hand.max_effort = 0  --> error: largest effort)",
      guarded<set_max_effort>},
     {"dof_names", getter<dof_names>, R"(
-Names of its DOFs in its file; "dof1" and so on if there are none.
+Names of its DOFs in its file; "dof1" and so on if it has none.
 @type string[]
 > hand.dof_names[1]  --> dof1)"},
 };
@@ -272,7 +272,7 @@ Names of its DOFs in its file; "dof1" and so on if there are none.
 static const Entry dofs_methods[] = {
     {"set_dofs", guarded<set_dofs>, R"(
 Sets DOFs at once, without collision checks; see move_dofs. Joints that had broken away, or were held against their
-springs, follow again, except those that the options name by chain, joint and present value [rad or m].
+springs, follow their DOFs again, except those that the options name by chain, joint and present value [rad or m].
 @param values number[]|table<string, number>  within the limits: all, or some by their names, the others as they are [rad or m]
 @param options? table  joints of compliant DOFs
 @option joint_positions? number[][] [rad or m]  rows {chain, joint, value}
@@ -292,7 +292,7 @@ their DOFs.
 > hand:set_posture(hand.pose, hand.dofs)  --> nil
 > hand:set_posture(hand.pose, {1})  --> error: expected 12 DOF values, got 1)"},
     {"move_dofs", guarded<move_dofs>, R"(
-Drives all DOFs in proportion towards values, until contact stops them.
+Drives all DOFs proportionally towards the given values, until contact stops them.
 @param values number[]|table<string, number>  as of set_dofs
 @param options? table  how it moves
 @option stop_at_contact? boolean = false  true: end at the first new contact of any link
@@ -302,8 +302,8 @@ Drives all DOFs in proportion towards values, until contact stops them.
     {"autograsp", guarded<autograsp>, R"(
 Closes the hand: each DOF moves towards its limit in the direction of its default velocity until contact stops it. Breakaway
 fingers continue past the stopped joint. The joints of compliant DOFs follow the balance of springs, contacts
-and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed
-opens. With `dynamic` nothing moves yet: its motors are set to close while the world runs, and nothing is returned.
+and friction: the tendon keeps pulling, and they yield and slide, until contacts take any further pull. A negative speed
+opens the hand. With `dynamic` nothing moves yet: its motors are set to close while the world runs, and nothing is returned.
 @param options? table  how it closes
 @option speed? number = 1  of all closing speeds, 1: those of the hand; negative: opens
 @option stop_at_contact? boolean = false  true: end at the first new contact of any link
@@ -318,7 +318,7 @@ opens. With `dynamic` nothing moves yet: its motors are set to close while the w
 > hand:autograsp{stages = {{1, 2, 3}, {4, 5, 6, 7, 8, 9}, {10, 11, 12}}}.moved  --> true
 > hand:autograsp{sped = 1}  --> error: did you mean 'speed'?)"},
     {"open", guarded<open>, R"(
-Opens the hand as far as possible. One that overlaps something is opened regardless of contacts until it is free.
+Opens the hand as far as possible. A hand that overlaps something is opened regardless of contacts until it is free.
 @param options? table  no options yet
 @return table result  as of autograsp
 @effect edits

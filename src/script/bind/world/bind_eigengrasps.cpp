@@ -128,8 +128,8 @@ static std::string text_of_eigengrasps(const EigengraspsHandle& x) {
 static const Entry eigengrasps_functions[] = {
     {"eigengrasps", guarded<make>, R"(
 A set of eigengrasps: the principal components of `postures`, the strongest first, with their mean as the origin; or
-`vectors`, which are made unit. Of each principal component the largest entry is positive, and its eigenvalue is the
-variance along it. `count` keeps the first ones. Give it to a hand: hand.eigengrasps = set.
+the given `vectors`, normalized. The largest entry of each principal component is positive, and its eigenvalue is the
+variance along it. `count` keeps the first ones. Give the set to a hand: hand.eigengrasps = set.
 @param options table  postures to analyze, or the vectors themselves
 @option postures? number[][] [rad or m]  DOF values, whose principal components are computed
 @option count? integer [>= 1]  largest number of eigengrasps from postures
@@ -153,7 +153,7 @@ A unit vector for each eigengrasp, one number per DOF.
 @type number[][]
 > #hand.eigengrasps.vectors[1]  --> 12)"},
     {"eigenvalues", getter<[](const EigengraspsHandle& x) { return x.ready().eigenvalues(); }>, R"(
-Weight of each eigengrasp: of principal components the variance of the postures along it.
+Weight of each eigengrasp; for principal components, the variance of the postures along it.
 @type number[]
 > set = clench.eigengrasps{postures = {{0, 0}, {1, 0}, {2, 0}}}
 > set.eigenvalues  --> {1.0})"},
@@ -189,20 +189,20 @@ The hand that the set belongs to; nil for an independent set.
        return handle.set || handle.robot->eigengrasps;
      }>,
      R"(
-Is it from a file or a script? A hand without a set has one eigengrasp per DOF.
+Is the set from a file or a script? A hand without a set has one eigengrasp per DOF.
 @type boolean
 > hand.eigengrasps = nil
 > hand.eigengrasps.is_custom  --> false
 > #hand.eigengrasps  --> 12)"},
     {"count", getter<[](const EigengraspsHandle& x) { return x.ready().size(); }>, R"(
-Their number, like #.
+Number of eigengrasps, like #.
 @type integer
 > clench.eigengrasps{vectors = {{1, 1}}}.count  --> 1)"},
 };
 
 static const Entry eigengrasps_methods[] = {
     {"amplitudes", guarded<amplitudes>, R"(
-Amplitudes of the posture of the set that is nearest to DOF values; without them, to the hand's own.
+Amplitudes for which the set's posture is nearest to the DOF values; without these, to the hand's own.
 @param dofs? number[]  [rad or m]
 @return number[]
 @effect reads
@@ -210,8 +210,8 @@ Amplitudes of the posture of the set that is nearest to DOF values; without them
 > set:amplitudes{2, 3, 4}  --> {2.0, 5.0}
 > set:amplitudes{1}  --> error: expected 3 DOF values, got 1)"},
     {"dofs", guarded<dofs>, R"(
-DOF values of amplitudes; they may lie outside the limits. With `from`, a posture, its component outside its own
-amplitudes is kept.
+DOF values of amplitudes; they may lie outside the limits. With `from`, the component of that posture that no
+amplitudes represent is kept.
 @param amplitudes number[]  one amplitude per eigengrasp
 @param options? table  the posture to begin with
 @option from? number[] [rad or m]  posture whose part outside of the eigengrasps is kept
@@ -236,8 +236,8 @@ static const Entry eigengrasps_operators[] = {
 const Class eigengrasps_class{.name = "eigengrasps",
                               .variable = "eigengrasps",
                               .doc =
-                                  "A few postures whose sums are a hand's: each posture is an "
-                                  "origin and an amplitude for each eigengrasp.",
+                                  "A basis of a hand's postures: each posture is an origin plus an "
+                                  "amplitude times a vector for each eigengrasp.",
                               .fields = eigengrasps_fields,
                               .methods = eigengrasps_methods,
                               .operators = eigengrasps_operators};

@@ -151,7 +151,7 @@ static const char* word_of_origin(Origin origin) {
 
 static const Entry entity_fields[] = {
     {"world", getter<[](const Entity& x) { return WorldHandle{x.world}; }>, R"(
-The world that it is in.
+The world that contains it.
 @type world
 > flask.world == world, hand.world == world  --> true, true)"},
     {"material", getter<[](const Entity& x) { return x.world->materials().name(x->material); }>, R"(
@@ -163,11 +163,11 @@ Name of its material, which decides its friction.
      setter<[](const Entity& x, const std::string& name) { x.world->set_material(x.id, name); }>},
     {"material_from", getter<[](const Entity& x) { return word_of_origin(x->material_from); }>,
      R"(
-Origin of the material: its file, a script or option, or none: then it is assumed.
+Origin of the material: its file, a script or an option; without any of them it is assumed.
 @type "assumed"|"file"|"script"
 > world:add_object("models/objects/flask.iv", {name = "other", material = "glass"}).material_from  --> script)"},
     {"mass_from", getter<[](const Entity& x) { return word_of_origin(x->mass_from); }>, R"(
-Origin of the mass, likewise.
+Origin of the mass, in the same terms.
 @type "assumed"|"file"|"script"
 > world:add_object(clench.shapes.box {0.01, 0.01, 0.01}, {name = "cube"}).mass_from  --> assumed)"},
     {"mass", getter<[](const Entity& x) { return x->mass; }>, R"(
@@ -177,8 +177,8 @@ Its mass.
 > flask.mass  --> 0.5)",
      guarded<set_mass>},
     {"com", getter<[](const Entity& x) { return x->com; }>, R"(
-Center of mass in the body frame. Setting it takes an inertia that comes from its shape to the new center; one that was
-given stays.
+Center of mass in the body frame. Setting it moves an inertia that was derived from the shape to the new center; an inertia that was
+given is unchanged.
 @type vec3  [m]
 > flask.com = {0, 0, 0.01}
 > flask.com  --> (0, 0, 0.01))",
@@ -186,7 +186,7 @@ given stays.
     {"inertia",
      getter<[](const Entity& x) { return Eigen::Matrix3d(x->mass * x->inertia_per_mass); }>, R"(
 Inertia about the center of mass, in the body's axes, as rows. It scales with the mass. No principal moment may exceed the
-sum of the others: no body has such an inertia.
+sum of the others, as for every real body.
 @type number[][]  [kg m^2]
 > flask.mass = 1
 > flask.inertia = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}
@@ -220,9 +220,9 @@ if the body has one color.
 @type number[][]?
 > flask.triangle_colors  --> nil)"},
     {"textures", guarded<get_textures>, R"(
-Images on the triangles of `visual_mesh`, as its file places them; nil if it has none. `images` is a list of `{jpeg =, width =, height =,
-wrap_u =, wrap_v =, tint =}`: the bytes of a JPEG file of at most 1024 pixels a side, how the image continues beyond its edges ("repeat", "mirror" or
-"clamp"), and the factor of its colors. `numbers` and `places` are bytes for `string.unpack`: of each triangle the number of its image,
+Images on the triangles of `visual_mesh`, as its file maps them; nil if it has none. `images` is a list of `{jpeg =, width =, height =,
+wrap_u =, wrap_v =, tint =}`: the bytes of a JPEG file of at most 1024 pixels per side, how the image continues beyond its edges ("repeat", "mirror" or
+"clamp"), and the factor of its colors. `numbers` and `places` are bytes for `string.unpack`: for each triangle the number of its image,
 `"<I2"`, 0 for none, and u and v of its three corners, `"<ffffff"`, v down from the top. Setting `color` removes the textures.
 @type table?
 > flask.textures  --> nil)"},
@@ -230,7 +230,7 @@ wrap_u =, wrap_v =, tint =}`: the bytes of a JPEG file of at most 1024 pixels a 
 How the triangles of its file were read and repaired: lines of text, and the same data as fields `format`, `unit` [m],
 `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`,
 `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped`
-(was it inside out?). Nil when it has no mesh, or none from a file.
+(was it inside out?). nil if it has no mesh, or none from a file.
 @type table?
 > flask.mesh_report.unit  --> 0.001
 > flask.mesh_report.unit_source  --> format
@@ -252,7 +252,7 @@ against that point's velocity, and a torque against its turning.
      setter<[](const Entity& x, double value) { x.world->set_free_damping(x.id, value); }>},
     {"free_friction", getter<[](const Entity& x) { return x->free_friction; }>, R"(
 Dry resistance of a free object, or of a floating robot base: at most this force on the origin of
-its frame along each axis of the world, and at most this torque about each axis of its own.
+its frame along each axis of the world, and at most this torque about each axis of the body.
 @type number  [N and N m]
 > flask.free_friction  --> 0.0)",
      setter<[](const Entity& x, double value) { x.world->set_free_friction(x.id, value); }>},
@@ -263,12 +263,12 @@ frame, and a moment about every axis.
 > flask.free_armature  --> 0.0)",
      setter<[](const Entity& x, double value) { x.world->set_free_armature(x.id, value); }>},
     {"gravity_compensation", getter<[](const Entity& x) { return x->gravity_compensation; }>, R"(
-Part of its weight that simulations leave out: 1 for a body that floats. MuJoCo calls it `gravcomp`.
+Fraction of its weight that is left out of simulations: 1 for a body that floats. MuJoCo calls it `gravcomp`.
 @type number
 > flask.gravity_compensation  --> 0.0)",
      setter<[](const Entity& x, double value) { x.world->set_gravity_compensation(x.id, value); }>},
     {"elastic_modulus", getter<[](const Entity& x) { return x->elastic_modulus; }>, R"(
-Young's modulus; nil when it is rigid.
+Young's modulus; nil if it is rigid.
 @type number?  [Pa]
 > flask.elastic_modulus = 1.5e6
 > flask.elastic_modulus  --> 1500000.0)",
@@ -287,7 +287,7 @@ Poisson's ratio of an elastic body, below 0.5: its layer deforms by modulus / (1
 > flask.poisson_ratio = 0.5  --> error: expected a number from 0 to 0.499999, got 0.5)",
      setter<[](const Entity& x, double value) { x.world->set_poisson_ratio(x.id, value); }>},
     {"contacts", guarded<get_entity_contacts>, R"(
-Contacts of other bodies with it now.
+Present contacts of other bodies with it.
 @type contact[]
 > #flask.contacts == #world:contacts(hand, flask)  --> true)"},
     {"color", getter<color_of>, R"(

@@ -304,7 +304,7 @@ static const Entry hand_fields[] = {
        return EigengraspsHandle{x, nullptr};
      }>,
      R"(
-Its present eigengrasps: those of its file, or one per DOF. Setting copies a set; nil leaves one per DOF.
+Its present eigengrasps: those of its file, or one per DOF. Setting it copies a set; nil restores one per DOF.
 @type eigengrasps
 > hand.eigengrasps = clench.eigengrasps{vectors = {{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}}}
 > hand.eigengrasps  --> 1 eigengrasp of 12 DOFs
@@ -313,16 +313,16 @@ Its present eigengrasps: those of its file, or one per DOF. Setting copies a set
     {"amplitudes",
      getter<[](const RobotHandle& x) { return Eigengrasps(*x).amplitudes(x.world->dofs(x.id)); }>,
      R"(
-Amplitudes of the posture of its eigengrasps that is nearest to its own. Setting takes that posture, as set_amplitudes.
+Amplitudes for which the posture of its eigengrasps is nearest to its own. Setting them sets that posture, as set_amplitudes does.
 @type number[]
 > hand.eigengrasps = clench.eigengrasps{vectors = {{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}}}
 > hand.amplitudes = {0.25}
 > math.abs(hand.amplitudes[1] - 0.25) < 1e-12  --> true)",
      guarded<set_amplitudes_field>},
     {"virtual_contacts", guarded<get_virtual_contacts>, R"(
-Its desired contact points: those of its file, those set by a script, or, if there are neither, those that
-find_virtual_contacts computes, at each access. Set to a list of virtual contacts, contacts, or tables as of
-add_virtual_contact; to {} for none, to nil for those that are found.
+Its desired contact points: those of its file or of a script or, if there are neither, those that
+find_virtual_contacts computes, at each access. Set to a list of virtual contacts, contacts, or tables as taken by
+add_virtual_contact; to {} for none; to nil for computed ones.
 @type virtual_contact[]
 > hand.virtual_contacts = {{link = "chain0_link2", point = {0, 0, 0}, normal = {0, 0, 1}, mu = 0.5}}
 > hand.virtual_contacts[1].mu  --> 0.5
@@ -331,7 +331,7 @@ add_virtual_contact; to {} for none, to nil for those that are found.
      guarded<set_virtual_contacts>},
     {"has_own_virtual_contacts",
      getter<[](const RobotHandle& robot) { return robot->virtual_contacts != nullptr; }>, R"(
-Do its virtual contacts come from a file or a script? Otherwise they are found from its geometry.
+Do its virtual contacts come from a file or a script? Otherwise they are computed from its geometry.
 @type boolean
 > hand.has_own_virtual_contacts  --> true
 > hand.virtual_contacts = nil
@@ -340,7 +340,7 @@ Do its virtual contacts come from a file or a script? Otherwise they are found f
        return x->glove ? std::optional(*x->glove) : std::nullopt;
      }>,
      R"(
-Calibration of the data glove that its file names: `slopes` (a row per DOF, a number per sensor) and `intercepts`, so that
+Calibration of the data glove that is named in its file: `slopes` (a row per DOF, a number per sensor) and `intercepts`, so that
 DOF = intercept + slopes * raw. nil if there is none.
 @type {slopes: number[][], intercepts: number[]}?  [rad per count, rad]
 > hand.glove  --> nil)"},
@@ -353,8 +353,8 @@ Tendons of its file, unchanged; they exert no force. Points are in the frame of 
 @type {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[]  [N/m, m]
 > #hand.tendons  --> 0)"},
     {"tendon_wrappers", guarded<get_tendon_wrappers>, R"(
-Posts that tendons wrap around, each an infinite cylinder; `exempt` names the tendons that ignore it, `sides` say on which
-side of it the others lie. They have no effect.
+Posts around which tendons wrap, each an infinite cylinder; `exempt` names the tendons that ignore it, `sides` states on which
+side of it the others pass. They have no effect.
 @type {link: body, point: vec3, axis: vec3, radius: number, friction: number, exempt: string[], sides: {tendon: string, direction: vec3}[]}[]
 > #hand.tendon_wrappers  --> 0)"},
     {"joint_tendons", guarded<get_joint_tendons>, R"(
@@ -366,15 +366,15 @@ force of the tendon. They are ignored by methods that set DOFs without a simulat
     {"actuators", guarded<get_actuators>, R"(
 Actuators as an MJCF file describes them: `name`, `kind` ("motor", "position", "general"), `joint` or
 `tendon` with the joints that it `pulls`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] +
-bias[2] * length + bias[3] * velocity. If the file defines them: `gain_slopes`, which multiplied by length and velocity are added to the gain; `activation_range`, of what the
-law takes in place of the control; `law_range` of the force of a muscle, which only pulls; `tendon_force_range` of all actuators of the tendon; `enabled`, false
-of one that exerts nothing. `damping_ratio` is the `dampratio` of a servo, whose damping is not in its law. From
-them the motors take the driven DOFs, the maximum efforts, and, as kp and kd, the values of bias[2] and bias[3] for DOFs
-and of tendons; a script that sets forces may follow their laws.
+bias[2] * length + bias[3] * velocity. If the file defines them: `gain_slopes`, which multiplied by length and velocity are added to the gain; `activation_range`, of the
+activation that replaces the control in the law; `law_range` of the force of a muscle, which only pulls; `tendon_force_range` of all actuators of the tendon; `enabled`, false
+for one that exerts nothing. `damping_ratio` is the `dampratio` of a servo, whose damping is not in its law. The motors take
+from them the driven DOFs, the maximum efforts, and, as kp and kd, the values of bias[2] and bias[3] for DOFs
+and for tendons; a script that sets forces can apply their laws.
 @type table[]
 > #hand.actuators  --> 0)"},
     {"tactile_sensors", guarded<get_tactile_sensors>, R"(
-Boxes in which contacts count as one sensor's, by their `low` and `high` corners in the frame of their `link`. They have
+Boxes, each of which senses its contacts as one sensor, by their `low` and `high` corners in the frame of their `link`. They have
 no effect.
 @type {link: body, low: vec3, high: vec3}[]
 > #hand.tactile_sensors  --> 0)"},
@@ -396,7 +396,7 @@ Sets the posture given by amplitudes of its eigengrasps, without collision check
 > hand:set_amplitudes({0.1}, {fixed = {2}})  --> error: fixed: expected one of 1 eigengrasps, got 2
 > hand:set_amplitudes{1, 2}  --> error: expected 1 amplitudes, got 2)"},
     {"move_amplitudes", guarded<move_amplitudes>, R"(
-Drives the DOFs towards the posture of amplitudes, as move_dofs, until contact stops them.
+Drives the DOFs towards the posture of the given amplitudes, as move_dofs does, until contact stops them.
 @param amplitudes number[]  one amplitude per eigengrasp
 @param options? table  how it moves
 @like hand:set_amplitudes
@@ -422,7 +422,7 @@ Adds a virtual contact: at a present contact, or in the frame of a link (a body 
 > #hand.virtual_contacts == #world:contacts(hand, flask)  --> true
 > hand:add_virtual_contact{link = "thumb"}  --> error: has no link 'thumb')"},
     {"remove_virtual_contact", guarded<remove_virtual_contact>, R"(
-Takes one out of its list.
+Removes a virtual contact from its list.
 @param number index  number of the contact
 @effect edits
 > count = #hand.virtual_contacts
@@ -430,7 +430,7 @@ Takes one out of its list.
 > #hand.virtual_contacts == count - 1  --> true
 > hand:remove_virtual_contact(1000)  --> error: number: expected one of)"},
     {"find_virtual_contacts", guarded<find_sites>, R"(
-Contact points on its surface where that moves forward when the hand closes: the center of the volume that each link sweeps, by area and
+Contact points on the parts of its surface that move forward when the hand closes: the center of the volume that each link sweeps, by area and
 speed along its normal, and one on the palm. Sets nothing.
 @param options? table  where they are, and of what is grasped
 @option count_per_link? integer [1 to 100] = 1  number of contacts per link, along its length

@@ -74,8 +74,8 @@ static int random_posture(lua_State* L) {
 
 static const Entry kinematics_methods[] = {
     {"ik", guarded<ik>, R"(
-Inverse kinematics: values of its DOFs within their limits that bring a link to a pose; moves nothing. If none are
-found, the nearest ones, with a turn by 1 rad weighted like a displacement of 0.1 m.
+Inverse kinematics: values of its DOFs within their limits that bring a link to a pose; moves nothing. If there are none,
+returns the nearest ones, with a turn by 1 rad weighted like a displacement of 0.1 m.
 @param link body|string  a link, or its name; or a body of a robot that it carries
 @param pose pose  where it is to be, in the world
 @param options? table  what is reached, and how it is searched for

@@ -109,11 +109,11 @@ Axis-aligned bounds in the body frame.
 @type {low: vec3, high: vec3}  [m]
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.bounds.high  --> (0.5, 1, 2))"},
     {"volume", getter<[](const ShapePtr& x) { return x->solid().volume; }>, R"(
-Volume that the surface bounds; parts that overlap count twice. Meaningful when it is watertight.
+Volume inside the surface; parts that overlap count twice. Meaningful if it is watertight.
 @type number  [m^3]
 > math.abs(world:add_object(clench.shapes.box {1, 2, 4}).mesh.volume - 8) < 1e-12  --> true)"},
     {"centroid", getter<[](const ShapePtr& x) { return x->solid().centroid; }>, R"(
-Center of that volume: the center of mass of a uniform solid. Meaningful when it is watertight.
+Center of that volume: the center of mass of a uniform solid. Meaningful if it is watertight.
 @type vec3  [m]
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.centroid:norm() < 1e-12  --> true)"},
     {"area", getter<[](const ShapePtr& x) { return x->mesh().area(); }>, R"(
@@ -121,11 +121,11 @@ Area of all its triangles.
 @type number  [m^2]
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.area  --> 28.0)"},
     {"faults", getter<[](const ShapePtr& x) { return x->faults().describe(); }>, R"(
-Counts of its faults.
+Number of its faults of each kind.
 @type string
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.faults  --> no faults)"},
     {"fingerprint", getter<[](const ShapePtr& x) { return fingerprint_text(fingerprint(*x)); }>, R"(
-Equal for surfaces of the same triangles, whatever their order and the numbering of vertices.
+Equal for surfaces of the same triangles, in any order and with any numbering of vertices.
 @type string  16 hexadecimal digits
 > world:add_object(clench.shapes.box {1, 2, 4}).mesh.fingerprint == world:add_object(clench.shapes.box {1, 2, 4}).mesh.fingerprint  --> true)"},
     {"vertices", getter<vertices_of>, R"(
@@ -140,7 +140,7 @@ A list of all triangles: vertex numbers from 1, counter-clockwise from outside.
 
 static const Entry mesh_methods[] = {
     {"is_watertight", method<[](const ShapePtr& x) { return x->closed(); }>, R"(
-Does the surface bound a solid: every edge between two triangles that agree?
+Does the surface bound a solid: does every edge join two triangles of consistent orientation?
 @return boolean
 @effect reads
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh:is_watertight()  --> true)"},
@@ -152,13 +152,13 @@ The surface point nearest to a point of the body frame, with the outward normal 
 > near = world:add_object(clench.shapes.box {1, 1, 1}).mesh:closest_point {0.1, 0, 2}
 > near.point, near.normal, near.distance  --> (0.1, 0, 0.5), (0, 0, 1), 1.5)"},
     {"contains", guarded<holds>, R"(
-Does the solid hold a point of the body frame? An open mesh holds none.
+Is a point of the body frame inside the solid? No point is inside an open mesh.
 @param point vec3  [m]
 @return boolean
 @effect reads
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh:contains {0.1, 0, 0.4}  --> true)"},
     {"sample", guarded<sample>, R"(
-Points of the surface at random, each piece of it as likely as its area, with the outward normals of their triangles.
+Random points on the surface, uniformly distributed by area, with the outward normals of their triangles.
 @param random random  source of the random numbers
 @param count integer [0 to 1000000]  number of points
 @return {point: vec3, normal: vec3, triangle: index}[]  [m]
@@ -166,7 +166,7 @@ Points of the surface at random, each piece of it as likely as its area, with th
 > points = flask.mesh:sample(clench.random(1), 3)
 > #points, flask.mesh:closest_point(points[1].point).distance < 1e-9  --> 3, true)"},
     {"save", guarded<mesh_save>, R"(
-Writes the triangles, in meters. Numbers keep every digit, in .stl seven.
+Writes the triangles, in meters. Numbers are written with all digits, in .stl with seven.
 @param path string  .obj .off .ply .stl
 @effect files
 > path = os.tmpname() .. ".obj"

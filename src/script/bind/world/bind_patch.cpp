@@ -91,8 +91,8 @@ static std::string patch_text(const PatchHandle& x) {
 static const Entry patch_fields[] = {
     {"relative_radii", getter<[](const PatchHandle& x) { return x.patch->relative_radii; }>, R"(
 Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures.
-Where the surfaces separate more slowly than a ball of 2 m from a plane, or not at all, the `max_radius` of 20 mm is used
-for them, or the first radius when that is larger; between 1 m and 2 m the two are blended.
+For surfaces that separate more slowly than a ball of 2 m from a plane, or not at all, the `max_radius` of 20 mm is used,
+or the first radius if that is larger; between 1 m and 2 m the two are blended.
 @type number[]  [m]
 > patch.relative_radii[1] <= patch.relative_radii[2]  --> true)"},
     {"flat", guarded<get_flat>, R"(
@@ -114,7 +114,7 @@ Directions of the relative radii: unit, orthogonal to each other and to the cont
 > math.abs(patch.directions[1]:dot(patch.directions[2])) < 1e-12  --> true)"},
     {"point",
      getter<[](const PatchHandle& p) { return Eigen::Vector3d(p.X_WA * p.patch->center_A); }>, R"(
-The middle of the patch, in the world frame: the contact's point, or the mean of those whose neighborhoods overlap.
+The middle of the patch, in the world frame: the contact's point, or the mean of several with overlapping neighborhoods.
 @type vec3  [m]
 > (patch.point - world:contacts(hand, flask)[4].point):norm() < 0.01  --> true)"},
     {"points", guarded<get_patch_points>, R"(
@@ -126,11 +126,11 @@ Radius of the neighborhood in which the surfaces were sampled.
 @type number  [m]
 > ("%.5f"):format(patch.radius)  --> 0.00349)"},
     {"residual", getter<[](const PatchHandle& x) { return x.patch->residual; }>, R"(
-Root mean square distance of the points from the fit, of the worse surface.
+Root mean square distance of the points from the fit, for the surface that fits worse.
 @type number  [m]
 > patch.residual < patch.radius  --> true)"},
     {"at_edge", getter<[](const PatchHandle& x) { return x.patch->at_edge; }>, R"(
-Is there a corner or an edge, at which curvature is not meaningful? Then only that part of the ellipse is used that certainly
+Is there a corner or an edge, at which curvature is not meaningful? Then only the part of the ellipse is used that certainly
 touches.
 @type boolean
 > patch.at_edge  --> false)"},

@@ -125,7 +125,8 @@ static int approach_object(lua_State* L) {
 static int place_approach(lua_State* L) {
   const auto& robot = self<RobotHandle>(L);
   const Pose* frame = to<Pose>(L, 2);
-  if (frame && given(L, 3)) fail("{}: direction: a pose has its own, +z", subject(L));
+  if (frame && given(L, 3))
+    fail("{}: direction: not allowed with a pose, whose direction is +z", subject(L));
   const Eigen::Vector3d target = frame ? frame->position : check_vec3(L, 2, "target");
   const Pose X_WA = frame ? *frame : approach_frame(target, check_vec3(L, 3, "direction"));
   const double standoff = given(L, 4) ? check_number(L, 4, "standoff") : 0;
@@ -181,12 +182,12 @@ Identity by content: equal for robots of the same links, joints, limits and moto
        return fingerprint_text(mechanism_fingerprint(*x.world, x.id, shapes));
      }>,
      R"(
-Fingerprint of everything that a posture places: shapes, links, frames, axes and DOFs of joints. Masses, materials, limits and motors do not count, nor do
-differences of frames below 1e-9 m. Grasps keep it, and `grasp:apply` compares it.
+Fingerprint of everything that determines the poses in a posture: shapes, links, frames, axes and DOFs of joints. Masses, materials, limits and motors do not count, nor do
+differences of frames below 1e-9 m. Grasps store it, and `grasp:apply` compares it.
 @type string  16 hexadecimal digits
 > hand.mechanism_fingerprint == grasp.hand_fingerprint  --> true)"},
     {"name", getter<[](const RobotHandle& x) { return x->name; }>, R"(
-Unique in its world.
+Name, unique in its world.
 @type string
 > world:robot(hand.name) == hand  --> true)"},
     {"pose", getter<[](const RobotHandle& robot) { return robot.world->pose(robot->base); }>, R"(
@@ -200,9 +201,9 @@ Its links, chain by chain, without the base.
 @type body[]
 > #hand.links  --> 12)"},
     {"chains", guarded<get_chains>, R"(
-Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link
-where that is fixed, `links`, and `joints` with their present values (name, if its file names it, kind, dof, ratio, min, max,
-value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N
+Its chains: `parent`, the base or the link on which it begins; `pose` in the parent of its first joint, or of its link
+if that is fixed; `links`; and `joints` with their present values (name, if its file names it, kind, dof, ratio, min, max,
+value, broken_away: has it left a breakaway DOF?, spring_deflection: the value given by its DOF minus its own; spring [N
 m/rad or N/m] and rest, the value at which it is slack, damping [N m s/rad or N s/m], friction [N m or N], effort_range of all actuators together [N m or N] and armature [kg
 m^2 or kg], of joints that have them).
 @type table[]
@@ -220,24 +221,24 @@ Base, links, and mount if it has one.
 @type body[]
 > #hand.bodies  --> 13)"},
     {"approach", guarded<get_approach>, R"(
-Its approach to objects, in the world frame: `point`, on the palm or at the position where it would hold a
-small object, `direction`, `frame` with +z along it. From its file, or inferred, which `clench check` reports.
+Its approach to objects, in the world frame: `point`, on the palm or at the center of a
+small object that it would hold; `direction`; `frame` with +z along it. From its file, or inferred, which `clench check` reports.
 @type {point: vec3, direction: vec3, frame: pose}
 > math.abs(hand.approach.direction:norm() - 1) < 1e-12  --> true)"},
     {"parent", getter<carrier_of>, R"(
-The robot that carries it; nil when none does.
+The robot that carries it; nil if there is none.
 @type robot?
 > hand.parent  --> nil)"},
     {"class_name", getter<[](const RobotHandle& x) { return x->class_name; }>, R"(
-Name of its kind in its file.
+Its kind, as its file names it.
 @type string
 > hand.class_name  --> Hand)"},
     {"source", getter<[](const RobotHandle& x) { return x->source; }>, R"(
-File that it was read from.
+File from which it was read.
 @type string
 > hand.source:match "%.cfg$"  --> .cfg)"},
     {"files", guarded<get_files>, R"(
-Files that its file names: `eigengrasps`, `virtual_contacts`, `glove_calibration`.
+Files named in its file: `eigengrasps`, `virtual_contacts`, `glove_calibration`.
 @type table
 > type(hand.files)  --> table)"},
 };
@@ -291,7 +292,7 @@ checks. See `approach`.
 > (hand.approach.point - flask.pose.position - clench.vec3(0, 0, 0.1)):norm() < 1e-12  --> true
 > hand.approach.direction.z  --> -1.0)"},
     {"mount_on", guarded<mount_on>, R"(
-Fixes the robot to a link of another one: that of a name, or the last of a chain. It follows from now on.
+Fixes the robot to a link of another one: to the named one, or the last of a chain. From then on it moves with that link.
 @param parent robot  robot that carries this one
 @param options? table  where, and by which adapter
 @option chain? index = 1  chain whose last link carries it
@@ -304,7 +305,7 @@ Fixes the robot to a link of another one: that of a name, or the last of a chain
     {"dismount", method<[](const RobotHandle& x) { x.world->unmount(x.id); }>, R"(
 Detaches the robot from the one that carries it: it keeps its pose, without its adapter.
 @effect edits
-> hand:dismount()  --> error: is carried by nobody)"},
+> hand:dismount()  --> error: is not carried by another robot)"},
 };
 
 static const Entry robot_operators[] = {

@@ -161,12 +161,12 @@ Contact frame in the world: origin at the point, +z along the normal.
 > c = hand.virtual_contacts[1]
 > (c.frame:rotate{0, 0, 1} - c.normal):norm() < 1e-12  --> true)"},
     {"frame_in_link", getter<[](const VirtualContactHandle& x) { return x.contact.X_LC; }>, R"(
-Contact frame in the link's.
+Contact frame in the link frame.
 @type pose
 > c = hand.virtual_contacts[1]
 > (c.link.pose * c.frame_in_link).position == c.point  --> true)"},
     {"mu", getter<[](const VirtualContactHandle& x) { return x.contact.mu; }>, R"(
-Coulomb coefficient that it counts with.
+Coulomb coefficient used in computations.
 @type number
 > hand.virtual_contacts[1].mu > 0  --> true)"},
     {"edges", getter<[](const VirtualContactHandle& x) {
@@ -179,14 +179,14 @@ Friction supported by a unit normal force, over mu: a list of {fx, fy, fz, tx, t
 > #hand.virtual_contacts[#hand.virtual_contacts].edges  --> 8)"},
     {"torsion_radius",
      getter<[](const VirtualContactHandle& x) { return torsion_radius(x.contact); }>, R"(
-Largest torque about the normal that a unit normal force carries, over mu; 0 for a point.
+Maximum torque about the normal per unit normal force, over mu; 0 for a point.
 @type number  [m]
 > hand:add_virtual_contact{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}, torsion_radius = 0.002}
 > c = hand.virtual_contacts[#hand.virtual_contacts]
 > c.torsion_radius, c.kind, #c.edges  --> 0.002, soft, 20)"},
     {"kind", getter<virtual_contact_kind>,
      R"(
-"point", or "soft" when it carries torque about the normal.
+"point", or "soft" if it carries torque about the normal.
 @type string
 > hand.virtual_contacts = {{link = hand.base, point = {0, 0, 0}, normal = {0, 0, 1}}}
 > hand.virtual_contacts[1].kind  --> point)"},

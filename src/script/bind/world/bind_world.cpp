@@ -187,10 +187,10 @@ An empty world.
 @effect reads
 > #clench.world().bodies  --> 0)"},
     {"load", guarded<load_world>, R"(
-A world from a file. Names in it are looked up next to the file, then below the root. A .lua file is run, with a table
-with the root and the folder of the file as its arguments, and returns a world. With `confine`, here and wherever
+A world from a file. Names in it are looked up next to the file, then below the root. A .lua file is run with two
+arguments, a table with the `root` and the folder of the file, and returns a world. With `confine`, here and wherever
 files are read, only files below that folder are read, after resolving links, and no .lua file is run.
-A scene of MuJoCo is converted: every tree of joints becomes a robot, free bodies objects, fixed bodies obstacles. From the file
+A scene of MuJoCo is converted: every tree of joints becomes a robot, free bodies objects, fixed bodies obstacles. For the file
 of a robot or a body, the result is a world with only that robot or body.
 @param path string  .wld, .xml, .lua or .mjcf; or any file of a robot or a body
 @param options? table  how the file is read
@@ -228,7 +228,7 @@ The bodies that can be grasped.
 @type body[]
 > world.objects[1] == flask  --> true)"},
     {"obstacles", guarded<get_obstacles>, R"(
-The bodies that are only to be avoided.
+The bodies that serve only as obstacles.
 @type body[]
 > #world.obstacles  --> 0)"},
     {"robots", guarded<get_robots>, R"(
@@ -236,29 +236,29 @@ All robots in creation order.
 @type robot[]
 > world.robots[1] == hand  --> true)"},
     {"source", getter<[](const WorldHandle& x) { return x.world->source(); }>, R"(
-File that the world was loaded from; empty when it was made by a script.
+File from which the world was loaded; empty if a script made it.
 @type string
 > clench.world().source == ""  --> true)"},
 };
 
 static const Entry world_methods[] = {
     {"body", guarded<body>, R"(
-The body of a name.
+The body with a name.
 @param name string  name of the body
 @return body
 @effect reads
 > world:body(flask.name) == flask  --> true
 > world:body "no such thing"  --> error: no body)"},
     {"robot", guarded<robot>, R"(
-The robot of a name.
+The robot with a name.
 @param name string  name of the robot
 @return robot
 @effect reads
 > world:robot(hand.name) == hand  --> true
 > world:robot "no such thing"  --> error: no robot)"},
     {"add_object", guarded<add_object>, R"(
-Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in meters. What the options
-give overrides the file.
+Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in meters. Values in the
+options override the file.
 @param body string|mesh|table  file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
 @param options? table  the body, and how it is read
 @option pose? pose  in the world
@@ -285,7 +285,7 @@ give overrides the file.
 > math.abs(world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {density = 1000}).mass - 1) < 1e-12  --> true
 > world:add_object "flsk.iv"  --> error: flsk.iv)"},
     {"add_obstacle", guarded<add_obstacle>, R"(
-Adds a body that is only to be avoided; as add_object.
+Adds a body that serves only as an obstacle; options as for add_object.
 @param body string|mesh|table  file name, mesh, or vertices and triangles, as world:add_object takes them
 @param options? table  the body, and how it is read
 @like world:add_object
@@ -354,11 +354,11 @@ is kept until the new one has been read back; a warning names everything that th
 > clench.load(path .. ".lua"):hash() == world:hash()  --> true
 > os.remove(path)
 > os.remove(path .. ".lua")
-> world:save "world.txt"  --> error: expected a world to .xml, .mjcf, .wld or .lua, got '.txt'
+> world:save "world.txt"  --> error: expected the extension .xml, .mjcf, .wld or .lua, got '.txt'
 > world:save("world.xml", {format = "usd"})  --> error: unknown format 'usd')"},
     {"hash", method<[](const WorldHandle& x) { return fmt::format("{:016x}", x.world->hash()); }>,
      R"(
-Fingerprint of the state: equal bits, equal text.
+Fingerprint of the state: equal for bit-identical states.
 @return string  16 hexadecimal digits
 @effect reads
 > #world:hash()  --> 16)"},

@@ -113,7 +113,7 @@ The first hit of a ray: `body`, `point`, `normal` out of its surface, `distance`
 > hit.body == box, hit.distance, hit.normal  --> true, 10.5, (0, 0, 1)
 > world:raycast({0, 0, 20}, {0, 0, -1}, 10)  --> nil)"},
     {"collides", guarded<collides>, R"(
-Does anything collide that may, or one entity with anything? The fastest test: it ends at the first pair that is found.
+Does any enabled pair of bodies collide, in the world or of one entity with anything? The fastest test: it ends at the first pair that is found.
 @param entity? body|robot  body or robot to test against all others
 @return boolean
 @effect reads
@@ -130,7 +130,7 @@ Pairs of bodies that collide, of the world, of one entity, or between two. A clo
 > #world:colliding()  --> 0
 > #world:colliding(nil, nil, {max = 10})  --> 0)"},
     {"distance", guarded<measure_distance>, R"(
-Least distance of two things, 0 when they collide, with the closest points in the world frame.
+Minimum distance of two things, 0 if they collide, with the closest points in the world frame.
 @param a body|robot  one of two
 @param b body|robot  the other
 @return number distance  [m]; infinite where one has no surface, and from a body to itself
@@ -139,7 +139,7 @@ Least distance of two things, 0 when they collide, with the closest points in th
 @effect reads
 > world:distance(hand, flask) <= world.contact_threshold  --> true)"},
     {"penetration", guarded<measure_penetration>, R"(
-Depth of the overlap: the largest distance, from the surface of `b`, of a point of `a` inside it, with that point in the
+Depth of the overlap: the largest distance from the surface of `b` of all points of `a` inside it, with that point in the
 world frame. It is at most 1 um + 0.1 % below the true one, and 0 only if the two do not overlap or just touch. Nothing is
 inside an open mesh: if that of `b` is open, points of `b` inside `a` count; if both are, the depth is infinite if they intersect.
 @param a body|robot  one of two

@@ -201,24 +201,24 @@ static int add_keyframe(lua_State* L) {
 static const Entry world_settings_fields[] = {
     {"contact_threshold", getter<[](const WorldHandle& x) { return x.world->contact_threshold(); }>,
      R"(
-Surfaces closer than this touch; motion stops with a gap below it.
+Surfaces closer than this are in contact; motion stops with a gap below it.
 @type number  [m]
 > world.contact_threshold  --> 0.0001)",
      setter<[](const WorldHandle& x, double threshold) {
        x.world->set_contact_threshold(threshold);
      }>},
     {"materials", getter<[](const WorldHandle& x) { return x.world->materials().names(); }>, R"(
-Names of the materials, the seven of the original first.
+Names of the materials, beginning with the seven of GraspIt!.
 @type string[]
 > world.materials[1]  --> frictionless)"},
     {"camera", guarded<get_camera>, R"(
 The camera of its file, as `clench.render` takes it: `clench.render(world, world.camera)`. nil when the file has none.
-It is set by such a table, or by `pose` (it looks along -z, y up) and `focal_distance` [m].
+Set it to such a table, or to one with `pose` (the camera looks along -z, y up) and `focal_distance` [m].
 @type {eye: vec3, target: vec3, up: vec3, field_of_view: number}?
 > clench.world().camera  --> nil
 > world.camera = {eye = {1, 0, 0.5}, target = {0, 0, 0}, up = {0, 0, 1}}
 > world.camera.eye  --> (1, 0, 0.5)
-> world.camera = {eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, 1}}  --> error: up not along the view)",
+> world.camera = {eye = {0, 0, 1}, target = {0, 0, 0}, up = {0, 0, 1}}  --> error: up in another direction than the view)",
      guarded<set_camera>},
     {"gravity", getter<[](const WorldHandle& x) { return x.world->gravity(); }>, R"(
 Gravitational acceleration of joints and objects, in the world frame.
@@ -244,7 +244,7 @@ Switches collision on or off: for the whole world, for one entity against everyt
 > world:set_collision(false, hand, flask)
 > #world:contacts(hand, flask)  --> 0)"},
     {"may_collide", guarded<may_collide>, R"(
-Does collision count for a pair, for one entity with anything, or for anything in the world? False for pairs that `set_collision` or `set_collision_bits` has
+Is collision enabled for a pair, for one entity with anything, or for anything in the world? False for pairs that `set_collision` or `set_collision_bits` has
 switched off, and for neighbors of a robot.
 @param a? body|robot  one of two; without both, any pair counts
 @param b? body|robot  the other of two; without it, any body
@@ -256,7 +256,7 @@ switched off, and for neighbors of a robot.
     {"set_collision_bits", guarded<set_collision_bits>, R"(
 Sets the collision bits of bodies, like `contype` and `conaffinity` of MuJoCo: two bodies with bits, not of one robot, collide if the type of one and the
 affinity of the other share a bit. Fixed bodies do not collide with each other. A later `world:set_collision(true, a, b)` makes a pair
-collide whatever its bits are.
+collide with any bits.
 @param entity body|robot  body or robot to set
 @param bits? table  the bits
 @option type? integer = 1  bits of this kind of body
@@ -289,7 +289,7 @@ The coefficients of a pair of materials.
 @effect reads
 > world:friction("rubber", "stone")  --> 1.5, 1.4)"},
     {"add_keyframe", guarded<add_keyframe>, R"(
-Gives a name to the present state, or to one given by a list. It replaces a keyframe of the same name.
+Stores the present state, or one given by a list, under a name. It replaces a keyframe of the same name.
 @param name string  name of the keyframe
 @param states? table[]  {body = body, pose = pose} and {robot = robot, pose = pose?, dofs = number[], or some by name}; what is not listed stays where it is; DOFs that are not named get the values that they have now
 @effect edits

@@ -88,8 +88,8 @@ WorldPtr push_world_of(lua_State* L, const fs::path& path, const ReadOptions& re
   if (is_script(path)) {
     if (!reading.confine.empty())
       fail(
-          "{}: a world in Lua is a program, which reads what it likes; expected one of another "
-          "format where reading is confined",
+          "{}: a world in Lua is a program, which may read any file; expected another format, as "
+          "reading is confined",
           path.filename().string());
     WorldPtr world = run_script(L, path, reading.root);
     if (world->source().empty()) world->set_source(path.generic_string());
