@@ -69,21 +69,21 @@ local random = {}
 ---@return number
 function random:uniform(low, high) end
 
----A number of the normal distribution with mean 0 and deviation 1.
+---A normally distributed number with mean 0 and standard deviation 1.
 ---@return number
 function random:normal() end
 
----An integer from low to high, both included, each as likely.
+---An integer from low to high, both included, uniformly distributed.
 ---@param low integer # smallest result
 ---@param high integer # largest result
 ---@return integer
 function random:integer(low, high) end
 
----A unit vector, each direction as likely.
+---A unit vector, uniformly distributed.
 ---@return vec3
 function random:direction() end
 
----A pose at the origin, each rotation as likely.
+---A pose at the origin with a uniformly distributed rotation.
 ---@return pose
 function random:rotation() end
 
@@ -91,28 +91,28 @@ function random:rotation() end
 ---@class world: world_queries
 ---@field bodies body[] # All bodies in creation order: objects, obstacles, robot bases, links, mounts.
 ---@field objects body[] # The bodies that can be grasped.
----@field obstacles body[] # The bodies that are only to be avoided.
+---@field obstacles body[] # The bodies that serve only as obstacles.
 ---@field robots robot[] # All robots in creation order.
----@field source string # File that the world was loaded from; empty when it was made by a script.
+---@field source string # File from which the world was loaded; empty if a script made it.
 local world = {}
 
----The body of a name.
+---The body with a name.
 ---@param name string # name of the body
 ---@return body
 function world:body(name) end
 
----The robot of a name.
+---The robot with a name.
 ---@param name string # name of the robot
 ---@return robot
 function world:robot(name) end
 
----Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in meters. What the options give overrides the file.
+---Adds a body that can be grasped: from a file, or from a mesh of vertices and triangles in meters. Values in the options override the file.
 ---@param body string|mesh|table # file name (.iv .wrl .xml .obj .stl .ply .off .gltf .glb .dae), or {vertices = {{x, y, z}, ...}, triangles = {{i, j, k}, ...}}
 ---@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, soft_layer?: number, poisson_ratio?: number, restitution?: number, free_damping?: number, free_friction?: number, free_armature?: number, gravity_compensation?: number, color?: number[], transparency?: number, root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # the body, and how it is read
 ---@return body
 function world:add_object(body, options) end
 
----Adds a body that is only to be avoided; as add_object.
+---Adds a body that serves only as an obstacle; options as for add_object.
 ---@param body string|mesh|table # file name, mesh, or vertices and triangles, as world:add_object takes them
 ---@param options? {pose?: pose, name?: string, material?: string, mass?: number, density?: number, com?: vec3, inertia?: number[][], elastic_modulus?: number, soft_layer?: number, poisson_ratio?: number, restitution?: number, free_damping?: number, free_friction?: number, free_armature?: number, gravity_compensation?: number, color?: number[], transparency?: number, root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # the body, and how it is read
 ---@return body
@@ -149,7 +149,7 @@ function world:restore(snapshot) end
 ---@param options? {format?: "mjcf"|"graspit", root?: string, confine?: string} # how it is written
 function world:save(path, options) end
 
----Fingerprint of the state: equal bits, equal text.
+---Fingerprint of the state: equal for bit-identical states.
 ---@return string # 16 hexadecimal digits
 function world:hash() end
 
@@ -159,41 +159,41 @@ local snapshot = {}
 
 ---Properties common to bodies and robots; a robot has those of its base.
 ---@class entity
----@field world world # The world that it is in.
+---@field world world # The world that contains it.
 ---@field material string # Name of its material, which decides its friction.
----@field material_from "assumed"|"file"|"script" # Origin of the material: its file, a script or option, or none: then it is assumed.
----@field mass_from "assumed"|"file"|"script" # Origin of the mass, likewise.
+---@field material_from "assumed"|"file"|"script" # Origin of the material: its file, a script or an option; without any of them it is assumed.
+---@field mass_from "assumed"|"file"|"script" # Origin of the mass, in the same terms.
 ---@field mass number # Its mass. [kg]
----@field com vec3 # Center of mass in the body frame. Setting it takes an inertia that comes from its shape to the new center; one that was given stays. [m]
----@field inertia number[][] # Inertia about the center of mass, in the body's axes, as rows. It scales with the mass. No principal moment may exceed the sum of the others: no body has such an inertia. [kg m^2]
+---@field com vec3 # Center of mass in the body frame. Setting it moves an inertia that was derived from the shape to the new center; an inertia that was given is unchanged. [m]
+---@field inertia number[][] # Inertia about the center of mass, in the body's axes, as rows. It scales with the mass. No principal moment may exceed the sum of the others, as for every real body. [kg m^2]
 ---@field fingerprint string # Identity by content: equal for bodies of the same surface, mass, inertia and material, whatever their files, names and poses. 16 hexadecimal digits
 ---@field mesh mesh? # Its surface; nil when it has none.
 ---@field visual_mesh mesh? # The mesh that pictures and pages draw: that for display if the file has one, otherwise its surface; nil if it has none.
 ---@field triangle_colors number[][]? # Colors of the triangles of `visual_mesh`, red, green and blue from 0 to 1, if the file has several, by materials or textures; nil if the body has one color.
----@field textures table? # Images on the triangles of `visual_mesh`, as its file places them; nil if it has none. `images` is a list of `{jpeg =, width =, height =, wrap_u =, wrap_v =, tint =}`: the bytes of a JPEG file of at most 1024 pixels a side, how the image continues beyond its edges ("repeat", "mirror" or "clamp"), and the factor of its colors. `numbers` and `places` are bytes for `string.unpack`: of each triangle the number of its image, `"<I2"`, 0 for none, and u and v of its three corners, `"<ffffff"`, v down from the top. Setting `color` removes the textures.
----@field mesh_report table? # How the triangles of its file were read and repaired: lines of text, and the same data as fields `format`, `unit` [m], `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped` (was it inside out?). Nil when it has no mesh, or none from a file.
+---@field textures table? # Images on the triangles of `visual_mesh`, as its file maps them; nil if it has none. `images` is a list of `{jpeg =, width =, height =, wrap_u =, wrap_v =, tint =}`: the bytes of a JPEG file of at most 1024 pixels per side, how the image continues beyond its edges ("repeat", "mirror" or "clamp"), and the factor of its colors. `numbers` and `places` are bytes for `string.unpack`: for each triangle the number of its image, `"<I2"`, 0 for none, and u and v of its three corners, `"<ffffff"`, v down from the top. Setting `color` removes the textures.
+---@field mesh_report table? # How the triangles of its file were read and repaired: lines of text, and the same data as fields `format`, `unit` [m], `unit_source` ("format", "file", "option" or "guess"), `up` (the axis of the file that became z), `triangles_read`, `vertices_read`, `welded_vertices`, `unused_vertices`, `dropped_triangles` (without area, or lying on others), `flipped` (was it inside out?). nil if it has no mesh, or none from a file.
 ---@field restitution number # Restitution: ratio of the speeds after and before an impact, from 0 to 1. The larger value of two bodies is used, unless set_friction has a value for their materials.
 ---@field free_damping number # Viscous resistance of an object that moves freely, or of the base of a robot that floats: a force on the origin of its frame against that point's velocity, and a torque against its turning. [N s/m and N m s/rad]
----@field free_friction number # Dry resistance of a free object, or of a floating robot base: at most this force on the origin of its frame along each axis of the world, and at most this torque about each axis of its own. [N and N m]
+---@field free_friction number # Dry resistance of a free object, or of a floating robot base: at most this force on the origin of its frame along each axis of the world, and at most this torque about each axis of the body. [N and N m]
 ---@field free_armature number # Inertia without weight of an object that moves freely, or of the base of a robot that floats: a mass at the origin of its frame, and a moment about every axis. [kg and kg m^2]
----@field gravity_compensation number # Part of its weight that simulations leave out: 1 for a body that floats. MuJoCo calls it `gravcomp`.
----@field elastic_modulus number? # Young's modulus; nil when it is rigid. [Pa]
+---@field gravity_compensation number # Fraction of its weight that is left out of simulations: 1 for a body that floats. MuJoCo calls it `gravcomp`.
+---@field elastic_modulus number? # Young's modulus; nil if it is rigid. [Pa]
 ---@field soft_layer number # Height of the soft layer of an elastic body. [m]
 ---@field poisson_ratio number # Poisson's ratio of an elastic body, below 0.5: its layer deforms by modulus / (1 - ratio^2).
----@field contacts contact[] # Contacts of other bodies with it now.
+---@field contacts contact[] # Present contacts of other bodies with it.
 ---@field color number[] # Color in pictures: red, green and blue in 0..1.
 ---@field transparency number # From 0, opaque, to 1, invisible.
 local entity = {}
 
 ---A rigid body in a world: an object, an obstacle, or a part of a robot.
 ---@class body: motion
----@field name string # Unique in its world.
+---@field name string # Name, unique in its world.
 ---@field pose pose # Its pose in the world frame. Setting it moves the body at once, without collision checks; see move_to. The parts of a robot move with the robot.
 ---@field kind string # "object", "obstacle", "base", "link" or "mount".
 ---@field robot robot? # The robot that it is a part of; nil for objects and obstacles.
----@field bounds_in_world {low: vec3, high: vec3}? # Least and largest coordinates of its surface in the world frame; nil when it has none. [m]
----@field source string # File that it was read from; empty when it was made by a script.
----@field tracker integer? # Number of the position sensor that is to move it; nil when its file names none.
+---@field bounds_in_world {low: vec3, high: vec3}? # Minimum and maximum coordinates of its surface in the world frame; nil if it has none. [m]
+---@field source string # File from which it was read; empty if a script made it.
+---@field tracker integer? # Number of the position sensor that should move it; nil if its file names none.
 local body = {}
 
 ---The same body in a clone of its world, or in the world of which its own is a clone.
@@ -201,7 +201,7 @@ local body = {}
 ---@return body
 function body:in_world(world) end
 
----Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that remains is within the contact threshold. One that starts in contact may slide or move away, but not inwards.
+---Moves an object or obstacle along the straight line and shortest turn until it first touches something. The gap that remains is within the contact threshold. A body that starts in contact may slide along it or move away, but not move inwards.
 ---@param pose pose # target pose in the world
 ---@return table result # `fraction` of the way gone, `touched`, `stopped_by` (pairs), `iteration_limit` (after a million steps), `queries`
 function body:move_to(pose) end
@@ -211,61 +211,61 @@ function body:move_to(pose) end
 ---@field triangle_count integer # Number of triangles.
 ---@field vertex_count integer # Number of vertices.
 ---@field bounds {low: vec3, high: vec3} # Axis-aligned bounds in the body frame. [m]
----@field volume number # Volume that the surface bounds; parts that overlap count twice. Meaningful when it is watertight. [m^3]
----@field centroid vec3 # Center of that volume: the center of mass of a uniform solid. Meaningful when it is watertight. [m]
+---@field volume number # Volume inside the surface; parts that overlap count twice. Meaningful if it is watertight. [m^3]
+---@field centroid vec3 # Center of that volume: the center of mass of a uniform solid. Meaningful if it is watertight. [m]
 ---@field area number # Area of all its triangles. [m^2]
----@field faults string # Counts of its faults.
----@field fingerprint string # Equal for surfaces of the same triangles, whatever their order and the numbering of vertices. 16 hexadecimal digits
+---@field faults string # Number of its faults of each kind.
+---@field fingerprint string # Equal for surfaces of the same triangles, in any order and with any numbering of vertices. 16 hexadecimal digits
 ---@field vertices vec3[] # A list of all vertices in the body frame. [m]
----@field triangles integer[][] # A list of all triangles: vertex numbers from 1, counter-clockwise from outside.
+---@field triangles index[][] # A list of all triangles: vertex numbers from 1, counter-clockwise from outside.
 local mesh = {}
 
----Does the surface bound a solid: every edge between two triangles that agree?
+---Does the surface bound a solid: does every edge join two triangles of consistent orientation?
 ---@return boolean
 function mesh:is_watertight() end
 
 ---The surface point nearest to a point of the body frame, with the outward normal of its triangle there.
 ---@param point vec3 # [m]
----@return {point: vec3, normal: vec3, triangle: integer, distance: number} # [m]
+---@return {point: vec3, normal: vec3, triangle: index, distance: number} # [m]
 function mesh:closest_point(point) end
 
----Does the solid hold a point of the body frame? An open mesh holds none.
+---Is a point of the body frame inside the solid? No point is inside an open mesh.
 ---@param point vec3 # [m]
 ---@return boolean
 function mesh:contains(point) end
 
----Points of the surface at random, each piece of it as likely as its area, with the outward normals of their triangles.
+---Random points on the surface, uniformly distributed by area, with the outward normals of their triangles.
 ---@param random random # source of the random numbers
 ---@param count integer # number of points
----@return {point: vec3, normal: vec3, triangle: integer}[] # [m]
+---@return {point: vec3, normal: vec3, triangle: index}[] # [m]
 function mesh:sample(random, count) end
 
----Writes the triangles, in meters. Numbers keep every digit, in .stl seven.
+---Writes the triangles, in meters. Numbers are written with all digits, in .stl with seven.
 ---@param path string # .obj .off .ply .stl
 function mesh:save(path) end
 
 ---Parts of a robot used for grasping: eigengrasps, virtual contacts, a glove, a position sensor.
 ---@class hand: robot_dynamics
----@field eigengrasps eigengrasps # Its present eigengrasps: those of its file, or one per DOF. Setting copies a set; nil leaves one per DOF.
----@field amplitudes number[] # Amplitudes of the posture of its eigengrasps that is nearest to its own. Setting takes that posture, as set_amplitudes.
----@field virtual_contacts virtual_contact[] # Its desired contact points: those of its file, those set by a script, or, if there are neither, those that find_virtual_contacts computes, at each access. Set to a list of virtual contacts, contacts, or tables as of add_virtual_contact; to {} for none, to nil for those that are found.
----@field has_own_virtual_contacts boolean # Do its virtual contacts come from a file or a script? Otherwise they are found from its geometry.
----@field glove {slopes: number[][], intercepts: number[]}? # Calibration of the data glove that its file names: `slopes` (a row per DOF, a number per sensor) and `intercepts`, so that DOF = intercept + slopes * raw. nil if there is none. [rad per count, rad]
----@field tracker {number: integer, pose: pose}? # Position sensor on it: its `number` and its mounting `pose` in the base. nil if there is none.
+---@field eigengrasps eigengrasps # Its present eigengrasps: those of its file, or one per DOF. Setting it copies a set; nil restores one per DOF.
+---@field amplitudes number[] # Amplitudes for which the posture of its eigengrasps is nearest to its own. Setting them sets that posture, as set_amplitudes does.
+---@field virtual_contacts virtual_contact[] # Its desired contact points: those of its file or of a script or, if there are neither, those that find_virtual_contacts computes, at each access. Set to a list of virtual contacts, contacts, or tables as taken by add_virtual_contact; to {} for none; to nil for computed ones.
+---@field has_own_virtual_contacts boolean # Do its virtual contacts come from a file or a script? Otherwise they are computed from its geometry.
+---@field glove {slopes: number[][], intercepts: number[]}? # Calibration of the data glove that is named in its file: `slopes` (a row per DOF, a number per sensor) and `intercepts`, so that DOF = intercept + slopes * raw. nil if there is none. [rad per count, rad]
+---@field tracker {number: index, pose: pose}? # Position sensor on it: its `number` and its mounting `pose` in the base. nil if there is none.
 ---@field tendons {name: string, stiffness: number, rest_length?: number, pre_tension_length?: number, points: {link: body, point: vec3, friction: number}[]}[] # Tendons of its file, unchanged; they exert no force. Points are in the frame of their link. [N/m, m]
----@field tendon_wrappers {link: body, point: vec3, axis: vec3, radius: number, friction: number, exempt: string[], sides: {tendon: string, direction: vec3}[]}[] # Posts that tendons wrap around, each an infinite cylinder; `exempt` names the tendons that ignore it, `sides` say on which side of it the others lie. They have no effect.
----@field joint_tendons {name: string, dofs: integer[], arms: number[], length: number, range?: number[], stiffness: number, slack: number[], damping: number, friction: number}[] # Fixed tendons of an MJCF file that have a range, a spring or friction: `length` is the sum of `arms` times `dofs`. In simulations the length stays in `range`, a spring acts if it is outside `slack`, and each DOF receives its moment arm times the force of the tendon. They are ignored by methods that set DOFs without a simulation, and by the engine "ode".
----@field actuators table[] # Actuators as an MJCF file describes them: `name`, `kind` ("motor", "position", "general"), `joint` or `tendon` with the joints that it `pulls`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] + bias[2] * length + bias[3] * velocity. If the file defines them: `gain_slopes`, which multiplied by length and velocity are added to the gain; `activation_range`, of what the law takes in place of the control; `law_range` of the force of a muscle, which only pulls; `tendon_force_range` of all actuators of the tendon; `enabled`, false of one that exerts nothing. `damping_ratio` is the `dampratio` of a servo, whose damping is not in its law. From them the motors take the driven DOFs, the maximum efforts, and, as kp and kd, the values of bias[2] and bias[3] for DOFs and of tendons; a script that sets forces may follow their laws.
----@field tactile_sensors {link: body, low: vec3, high: vec3}[] # Boxes in which contacts count as one sensor's, by their `low` and `high` corners in the frame of their `link`. They have no effect.
+---@field tendon_wrappers {link: body, point: vec3, axis: vec3, radius: number, friction: number, exempt: string[], sides: {tendon: string, direction: vec3}[]}[] # Posts around which tendons wrap, each an infinite cylinder; `exempt` names the tendons that ignore it, `sides` states on which side of it the others pass. They have no effect.
+---@field joint_tendons {name: string, dofs: index[], arms: number[], length: number, range?: number[], stiffness: number, slack: number[], damping: number, friction: number}[] # Fixed tendons of an MJCF file that have a range, a spring or friction: `length` is the sum of `arms` times `dofs`. In simulations the length stays in `range`, a spring acts if it is outside `slack`, and each DOF receives its moment arm times the force of the tendon. They are ignored by methods that set DOFs without a simulation, and by the engine "ode".
+---@field actuators table[] # Actuators as an MJCF file describes them: `name`, `kind` ("motor", "position", "general"), `joint` or `tendon` with the joints that it `pulls`, `dof` that it moves, `gear`, `control_range`, `force_range`, and its law: force = gain * control + bias[1] + bias[2] * length + bias[3] * velocity. If the file defines them: `gain_slopes`, which multiplied by length and velocity are added to the gain; `activation_range`, of the activation that replaces the control in the law; `law_range` of the force of a muscle, which only pulls; `tendon_force_range` of all actuators of the tendon; `enabled`, false for one that exerts nothing. `damping_ratio` is the `dampratio` of a servo, whose damping is not in its law. The motors take from them the driven DOFs, the maximum efforts, and, as kp and kd, the values of bias[2] and bias[3] for DOFs and for tendons; a script that sets forces can apply their laws.
+---@field tactile_sensors {link: body, low: vec3, high: vec3}[] # Boxes, each of which senses its contacts as one sensor, by their `low` and `high` corners in the frame of their `link`. They have no effect.
 local hand = {}
 
 ---Sets the posture given by amplitudes of its eigengrasps, without collision checks. DOFs stop at their limits.
 ---@param amplitudes number[] # one amplitude per eigengrasp
 ---@param options? {keep?: boolean, fixed?: index[]} # what is kept
----@return integer[] clamped # numbers of the DOFs whose limit was in the way
+---@return index[] clamped # numbers of the DOFs whose limit was in the way
 function hand:set_amplitudes(amplitudes, options) end
 
----Drives the DOFs towards the posture of amplitudes, as move_dofs, until contact stops them.
+---Drives the DOFs towards the posture of the given amplitudes, as move_dofs does, until contact stops them.
 ---@param amplitudes number[] # one amplitude per eigengrasp
 ---@param options? {keep?: boolean, fixed?: index[], stop_at_contact?: boolean} # how it moves
 ---@return table result # as of autograsp, and `clamped`, numbers of the DOFs whose limit was in the way
@@ -276,11 +276,11 @@ function hand:move_amplitudes(amplitudes, options) end
 ---@return virtual_contact
 function hand:add_virtual_contact(contact) end
 
----Takes one out of its list.
----@param number integer # number of the contact, from 1
+---Removes a virtual contact from its list.
+---@param number index # number of the contact
 function hand:remove_virtual_contact(number) end
 
----Contact points on its surface where that moves forward when the hand closes: the center of the volume that each link sweeps, by area and speed along its normal, and one on the palm. Sets nothing.
+---Contact points on the parts of its surface that move forward when the hand closes: the center of the volume that each link sweeps, by area and speed along its normal, and one on the palm. Sets nothing.
 ---@param options? {count_per_link?: integer, palm?: boolean, object_material?: string} # where they are, and of what is grasped
 ---@return virtual_contact[]
 function hand:find_virtual_contacts(options) end
@@ -293,10 +293,10 @@ function hand:save_virtual_contacts(path) end
 ---@class kinematics: hand
 local kinematics = {}
 
----Inverse kinematics: values of its DOFs within their limits that bring a link to a pose; moves nothing. If none are found, the nearest ones, with a turn by 1 rad weighted like a displacement of 0.1 m.
+---Inverse kinematics: values of its DOFs within their limits that bring a link to a pose; moves nothing. If there are none, returns the nearest ones, with a turn by 1 rad weighted like a displacement of 0.1 m.
 ---@param link body|string # a link, or its name; or a body of a robot that it carries
 ---@param pose pose # where it is to be, in the world
----@param options? {frame?: pose, orientation?: "full"|"axis"|"none", dofs?: (integer|string)[], starts?: integer, seed?: integer, tolerance?: number, angle_tolerance?: number, collision_free?: boolean} # what is reached, and how it is searched for
+---@param options? {frame?: pose, orientation?: "full"|"axis"|"none", dofs?: (index|string)[], starts?: integer, seed?: integer, tolerance?: number, angle_tolerance?: number, collision_free?: boolean} # what is reached, and how it is searched for
 ---@return table result # `reached`, `dofs`, `distance` [m] and `angle` [rad] from the pose, `starts`, `iterations`, `in_collision` (starts that reached it, but collided)
 function kinematics:ik(link, pose, options) end
 
@@ -315,14 +315,14 @@ function kinematics:random_posture(random) end
 ---@class dofs: kinematics
 ---@field dofs number[] # Values of its degrees of freedom; a copy, set as by set_dofs. [rad or m]
 ---@field named_dofs table<string, number> # The same values by the names of dof_names; a copy, set as by set_dofs. [rad or m]
----@field dof_limits number[][] # Least and largest value of each DOF. Nothing stops one that is endless in dof_info: its range, a turn or a meter on either side of its present value, limits only closing and searches. [rad or m]
----@field dof_info table[] # Data of each DOF from its file: name, if it has one, kind ("rigid", "breakaway", "compliant"), default_velocity of closing [rad/s or m/s], max_effort [N m or N] (0: nothing limits it), max_velocity, if known, kp, kd, damping_ratio, where there is one, which adds 2 damping_ratio sqrt(kp inertia) to kd, breakaway_torque [N m], driven: false of a DOF that no actuator of an MJCF file can move (there is none, or its gear, gain or range is 0), and endless: true for one without limits. can_close: its motor can push in the direction of default_velocity. effort_ranges has the efforts that the motors can exert.
----@field effort_ranges number[][] # Minimum and maximum effort that the motor of each DOF can exert at rest at its present value; math.huge if no limit is given, {0, 0} of a DOF that is not driven. Limits are max_effort of dof_info in both directions and, of MJCF files, gear, gain, bias, control range and force range of the actuators. Contact forces with torque_limits, verified grasps and the motors of world:run stay within them. [N m or N]
----@field max_effort number? # Largest effort, in both directions, of motors for which the file gives no limit; nil: unlimited. [N m or N]
----@field dof_names string[] # Names of its DOFs in its file; "dof1" and so on if there are none.
+---@field dof_limits number[][] # Minimum and maximum of each DOF. A DOF that is endless in dof_info is not bounded by its range, a turn or a meter on either side of its present value, except in closing and searches. [rad or m]
+---@field dof_info table[] # Data of each DOF from its file: name, if it has one, kind ("rigid", "breakaway", "compliant"), default_velocity of closing [rad/s or m/s], max_effort [N m or N] (0: nothing limits it), max_velocity, if known, kp, kd, damping_ratio, where if it has one, which adds 2 damping_ratio sqrt(kp inertia) to kd, breakaway_torque [N m], driven: false for a DOF that no actuator of an MJCF file can move (there is none, or its gear, gain or range is 0), and endless: true for one without limits. can_close: its motor can push in the direction of default_velocity. effort_ranges has the efforts that the motors can exert.
+---@field effort_ranges number[][] # Minimum and maximum effort that the motor of each DOF can exert at rest at its present value; math.huge if no limit is given, {0, 0} for a DOF that is not driven. Limits are max_effort of dof_info in both directions and, for MJCF files, gear, gain, bias, control range and force range of the actuators. Contact forces with torque_limits, verified grasps and the motors of world:run stay within them. [N m or N]
+---@field max_effort number? # Maximum effort, in both directions, of motors for which the file gives no limit; nil: unlimited. [N m or N]
+---@field dof_names string[] # Names of its DOFs in its file; "dof1" and so on if it has none.
 local dofs = {}
 
----Sets DOFs at once, without collision checks; see move_dofs. Joints that had broken away, or were held against their springs, follow again, except those that the options name by chain, joint and present value [rad or m].
+---Sets DOFs at once, without collision checks; see move_dofs. Joints that had broken away, or were held against their springs, follow their DOFs again, except those that the options name by chain, joint and present value [rad or m].
 ---@param values number[]|table<string, number> # within the limits: all, or some by their names, the others as they are [rad or m]
 ---@param options? {joint_positions?: number[][]} # joints of compliant DOFs
 function dofs:set_dofs(values, options) end
@@ -333,18 +333,18 @@ function dofs:set_dofs(values, options) end
 ---@return index[]? # DOFs that stopped at a limit; nil: none
 function dofs:set_posture(pose, values) end
 
----Drives all DOFs in proportion towards values, until contact stops them.
+---Drives all DOFs proportionally towards the given values, until contact stops them.
 ---@param values number[]|table<string, number> # as of set_dofs
 ---@param options? {stop_at_contact?: boolean} # how it moves
 ---@return table result # as of autograsp
 function dofs:move_dofs(values, options) end
 
----Closes the hand: each DOF moves towards its limit in the direction of its default velocity until contact stops it. Breakaway fingers continue past the stopped joint. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon pulls on, and they yield and slide, until contacts take any further pull. Negative speed opens. With `dynamic` nothing moves yet: its motors are set to close while the world runs, and nothing is returned.
+---Closes the hand: each DOF moves towards its limit in the direction of its default velocity until contact stops it. Breakaway fingers continue past the stopped joint. The joints of compliant DOFs follow the balance of springs, contacts and friction: the tendon keeps pulling, and they yield and slide, until contacts take any further pull. A negative speed opens the hand. With `dynamic` nothing moves yet: its motors are set to close while the world runs, and nothing is returned.
 ---@param options? {speed?: number, stop_at_contact?: boolean, dofs?: (index|string)[], stages?: (index|string)[][], dynamic?: boolean} # how it closes
 ---@return table result # `moved`, `stops` (one per DOF: "contact", "limit", "reached", "not_driven", "iteration_limit"), `stopped_by` (pairs), `queries`, `events`
 function dofs:autograsp(options) end
 
----Opens the hand as far as possible. One that overlaps something is opened regardless of contacts until it is free.
+---Opens the hand as far as possible. A hand that overlaps something is opened regardless of contacts until it is free.
 ---@param options? table # no options yet
 ---@return table result # as of autograsp
 function dofs:open(options) end
@@ -352,18 +352,18 @@ function dofs:open(options) end
 ---A hand or an arm: a base, chains of links, and the degrees of freedom that move them.
 ---@class robot: dofs
 ---@field fingerprint string # Identity by content: equal for robots of the same links, joints, limits and motors, whatever their files, names, poses and postures. 16 hexadecimal digits
----@field mechanism_fingerprint string # Fingerprint of everything that a posture places: shapes, links, frames, axes and DOFs of joints. Masses, materials, limits and motors do not count, nor do differences of frames below 1e-9 m. Grasps keep it, and `grasp:apply` compares it. 16 hexadecimal digits
----@field name string # Unique in its world.
+---@field mechanism_fingerprint string # Fingerprint of everything that determines the poses in a posture: shapes, links, frames, axes and DOFs of joints. Masses, materials, limits and motors do not count, nor do differences of frames below 1e-9 m. Grasps store it, and `grasp:apply` compares it. 16 hexadecimal digits
+---@field name string # Name, unique in its world.
 ---@field pose pose # The pose of its base, in the world frame. Setting it moves the robot at once, with everything that it carries; see move_to.
 ---@field links body[] # Its links, chain by chain, without the base.
----@field chains table[] # Its chains: `parent`, the base or the link that it begins on; `pose` in the parent of its first joint, or of its link where that is fixed, `links`, and `joints` with their present values (name, if its file names it, kind, dof, ratio, min, max, value, broken_away: did it leave a breakaway DOF?, spring_deflection: how far its DOF has gone on without it; spring [N m/rad or N/m] and rest, the value at which it is slack, damping [N m s/rad or N s/m], friction [N m or N], effort_range of all actuators together [N m or N] and armature [kg m^2 or kg], of joints that have them).
+---@field chains table[] # Its chains: `parent`, the base or the link on which it begins; `pose` in the parent of its first joint, or of its link if that is fixed; `links`; and `joints` with their present values (name, if its file names it, kind, dof, ratio, min, max, value, broken_away: has it left a breakaway DOF?, spring_deflection: the value given by its DOF minus its own; spring [N m/rad or N/m] and rest, the value at which it is slack, damping [N m s/rad or N s/m], friction [N m or N], effort_range of all actuators together [N m or N] and armature [kg m^2 or kg], of joints that have them).
 ---@field base body # Its base: palm or stand.
 ---@field bodies body[] # Base, links, and mount if it has one.
----@field approach {point: vec3, direction: vec3, frame: pose} # Its approach to objects, in the world frame: `point`, on the palm or at the position where it would hold a small object, `direction`, `frame` with +z along it. From its file, or inferred, which `clench check` reports.
----@field parent robot? # The robot that carries it; nil when none does.
----@field class_name string # Name of its kind in its file.
----@field source string # File that it was read from.
----@field files table # Files that its file names: `eigengrasps`, `virtual_contacts`, `glove_calibration`.
+---@field approach {point: vec3, direction: vec3, frame: pose} # Its approach to objects, in the world frame: `point`, on the palm or at the center of a small object that it would hold; `direction`; `frame` with +z along it. From its file, or inferred, which `clench check` reports.
+---@field parent robot? # The robot that carries it; nil if there is none.
+---@field class_name string # Its kind, as its file names it.
+---@field source string # File from which it was read.
+---@field files table # Files named in its file: `eigengrasps`, `virtual_contacts`, `glove_calibration`.
 local robot = {}
 
 ---The same robot in a clone of its world, or in the world of which its own is a clone.
@@ -392,7 +392,7 @@ function robot:approach_object(options) end
 ---@param standoff? number # how far before the target, 0 by default [m]
 function robot:place_approach(target, direction, standoff) end
 
----Fixes the robot to a link of another one: that of a name, or the last of a chain. It follows from now on.
+---Fixes the robot to a link of another one: to the named one, or the last of a chain. From then on it moves with that link.
 ---@param parent robot # robot that carries this one
 ---@param options? {chain?: index, link?: string, pose?: pose, adapter?: string, root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # where, and by which adapter
 function robot:mount_on(parent, options) end
@@ -400,25 +400,25 @@ function robot:mount_on(parent, options) end
 ---Detaches the robot from the one that carries it: it keeps its pose, without its adapter.
 function robot:dismount() end
 
----A few postures whose sums are a hand's: each posture is an origin and an amplitude for each eigengrasp.
+---A basis of a hand's postures: each posture is an origin plus an amplitude times a vector for each eigengrasp.
 ---@class eigengrasps
 ---@field vectors number[][] # A unit vector for each eigengrasp, one number per DOF.
----@field eigenvalues number[] # Weight of each eigengrasp: of principal components the variance of the postures along it.
+---@field eigenvalues number[] # Weight of each eigengrasp; for principal components, the variance of the postures along it.
 ---@field origin number[] # The posture of zero amplitudes, within the DOF limits. If no file defines it, the middle of the limits. [rad or m]
 ---@field norm number[] # Scale of the vectors' entries, one per DOF.
 ---@field limits number[][] # Range of each amplitude from the hand's posture, with the others constant: that of its file, otherwise until the first DOF that it moves is at a limit. {least, largest} each
 ---@field range number[][] # Overall range of each amplitude: that of its file, otherwise the minimum and maximum over all postures within the DOF limits. {least, largest} each
 ---@field hand robot? # The hand that the set belongs to; nil for an independent set.
----@field is_custom boolean # Is it from a file or a script? A hand without a set has one eigengrasp per DOF.
----@field count integer # Their number, like #.
+---@field is_custom boolean # Is the set from a file or a script? A hand without a set has one eigengrasp per DOF.
+---@field count integer # Number of eigengrasps, like #.
 local eigengrasps = {}
 
----Amplitudes of the posture of the set that is nearest to DOF values; without them, to the hand's own.
+---Amplitudes for which the set's posture is nearest to the DOF values; without these, to the hand's own.
 ---@param dofs? number[] # [rad or m]
 ---@return number[]
 function eigengrasps:amplitudes(dofs) end
 
----DOF values of amplitudes; they may lie outside the limits. With `from`, a posture, its component outside its own amplitudes is kept.
+---DOF values of amplitudes; they may lie outside the limits. With `from`, the component of that posture that no amplitudes represent is kept.
 ---@param amplitudes number[] # one amplitude per eigengrasp
 ---@param options? {from?: number[]} # the posture to begin with
 ---@return number[] # [rad or m]
@@ -435,33 +435,33 @@ function eigengrasps:save(path) end
 ---@field point vec3 # Its position in the world frame; it moves with its link. [m]
 ---@field normal vec3 # Unit normal out of the link, in the world frame: into the body to be touched.
 ---@field frame pose # Contact frame in the world: origin at the point, +z along the normal.
----@field frame_in_link pose # Contact frame in the link's.
----@field mu number # Coulomb coefficient that it counts with.
+---@field frame_in_link pose # Contact frame in the link frame.
+---@field mu number # Coulomb coefficient used in computations.
 ---@field edges number[][] # Friction supported by a unit normal force, over mu: a list of {fx, fy, fz, tx, ty, tz} in the contact frame. torques [m]
----@field torsion_radius number # Largest torque about the normal that a unit normal force carries, over mu; 0 for a point. [m]
----@field kind string # "point", or "soft" when it carries torque about the normal.
+---@field torsion_radius number # Maximum torque about the normal per unit normal force, over mu; 0 for a point. [m]
+---@field kind string # "point", or "soft" if it carries torque about the normal.
 local virtual_contact = {}
 
 ---A point where one body touches another, as it was when queried.
 ---@class contact
----@field body body # The body that is touched: the object, of a hand and an object.
+---@field body body # The touched body; between a hand and an object, the object.
 ---@field other body # The body that touches it.
 ---@field link body? # The one of the two that is part of a robot; nil if neither is.
 ---@field point vec3 # Contact point on the surface of `body`, in the world frame. [m]
 ---@field normal vec3 # Unit normal into `body`, in the world frame.
 ---@field frame pose # Contact frame: origin at the point, +z into `body`.
 ---@field feature {kind: "vertex"|"edge"|"triangle"|"round", vertices?: index[], triangle?: index, piece?: index} # The feature of the body's mesh that the contact lies on: a vertex, an edge between two, a triangle, or a round piece, counted from 1. It stays the same while the contact moves along it, so that contacts can be matched from step to step.
----@field other_feature {kind: "vertex"|"edge"|"triangle"|"round", vertices?: index[], triangle?: index, piece?: index} # The same of the mesh of `other`.
----@field gap number # Distance of the two surfaces there, at most the world's contact threshold. [m]
+---@field other_feature {kind: "vertex"|"edge"|"triangle"|"round", vertices?: index[], triangle?: index, piece?: index} # The corresponding feature of the mesh of `other`.
+---@field gap number # Distance of the two surfaces at the contact, at most the world's contact threshold. [m]
 ---@field force vec3 # Contact force on body in the last step of the world, in world axes; 0 in a world that has not run. [N]
 ---@field torsion number # Torque of a soft contact about the normal on body in the last step of the world. [N m]
 ---@field mu number # Static Coulomb coefficient of the two materials.
 ---@field mu_kinetic number # Kinetic Coulomb coefficient of the two materials.
----@field kind string # "point" (with friction), "soft" (with friction, of bodies one of which at least is elastic) or "frictionless".
----@field patch patch? # The surfaces around a soft contact, and the torsional friction that it transmits; nil for others. Contacts of two bodies whose neighborhoods overlap have one patch. A corner or an edge is logged as a warning.
+---@field kind string # "point" (with friction), "soft" (with friction, and at least one body is elastic) or "frictionless".
+---@field patch patch? # The surfaces around a soft contact, and the torsional friction that it transmits; nil for other kinds. Contacts of two bodies whose neighborhoods overlap share one patch. A warning is logged at corners and edges.
 local contact = {}
 
----The patch of a soft contact by options of one's own; nil of others.
+---The patch of a soft contact, fitted with other options; nil for other kinds.
 ---@param options? {radius?: number, max_radius?: number, fit?: "quadric"|"jet"} # where and how the surface is fitted
 ---@return patch?
 function contact:fit_patch(options) end
@@ -470,26 +470,31 @@ function contact:fit_patch(options) end
 ---@class forces
 local forces = {}
 
----Forces at the contacts that hold the object against a load, inside the exact friction cones. The load is a wrench {fx, fy, fz, tx, ty, tz} on the object from outside, in the world's axes, its torque about the object's center of mass; its weight is {0, 0, -9.81 * mass, 0, 0, 0}. Objectives: "min_sum", the minimum sum of normal forces (Han, Trinkle and Li 2000; Boyd and Wegbreit 2007); "min_norm", the minimum sum of squares of the forces, the only one that always has a unique solution; "min_max", the minimum largest normal force; "max_margin", as far from the edges of the cones and from max_force as possible; "max_margin_sum", the largest sum of the distances from the edges. `status`: "optimal"; "infeasible", with a `certificate`; "unbounded" if more force is always better; "inaccurate" if the solution does not pass its check: balance, cones, caps and optimum to 1e-9, and the residual of a load, to 1e-7 of it. An inactive cap changes nothing. `margin`: the least of the forces' margins, for "max_margin" of the distances from max_force, too; 0 when some force has to lie on an edge: then "max_margin" is optimal, but these contacts cannot keep inside their cones, as without force closure. `forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential along x and y of contact.frame, force in the world's axes, margin from the edge of the cone [N, N m]. `unbalanced`: the wrench that is left, `residual` its length, torque over rho. `joint_torques`: of each DOF. `certificate`: a motion of the object, `twist`, along which the load's `power` is more than the `capacity` of caps and motors; `separation_rates` and `sliding_rates` of each contact along it; `force_limit_power`, `effort_limit_power` of the capacity; `contact` or `dof`, whichever yields. `unlimited_efforts`: with torque_limits = true, names of the motors that have no limit; nil without any.
+---Contact forces that hold the object against a load, inside the exact friction cones. The load is a wrench {fx, fy, fz, tx, ty, tz} that acts on the object from outside, in world axes, with its torque about the object's center of mass; the object's weight is {0, 0, -9.81 * mass, 0, 0, 0}. Objectives: "min_sum", the minimum sum of normal forces (Han, Trinkle and Li 2000; Boyd and Wegbreit 2007); "min_norm", the minimum sum of squares of the forces, the only objective that always has a unique solution; "min_max", the minimum of the largest normal force; "max_margin", the largest possible distance from the edges of the cones and from max_force; "max_margin_sum", the largest sum of the distances from the edges. `status`: "optimal"; "infeasible", with a `certificate`; "unbounded" if arbitrarily large forces are optimal; "inaccurate" if the solution fails its check: balance, cones, caps and optimum to 1e-9, and the residual of a load to 1e-7 of the load. A cap that is not reached changes nothing. `margin`: the smallest margin of all forces, for "max_margin" including the distances from max_force; 0 if some force has to lie on an edge: then "max_margin" is optimal, but these contacts cannot keep all forces strictly inside their cones, as without force closure. `forces`: a list of {contact, normal, tangential, torsion, mu, force, margin}: tangential along x and y of contact.frame, force in world axes, margin from the edge of the cone [N, N m]. `unbalanced`: the remaining wrench; `residual`: its length, with torque over rho. `joint_torques`: one per DOF. `certificate`: a motion of the object, `twist`, along which the `power` of the load exceeds the `capacity` of caps and motors; `separation_rates` and `sliding_rates`: those of each contact along it; `force_limit_power`, `effort_limit_power`: parts of the capacity; `contact` or `dof`: the one that yields. `unlimited_efforts`: with torque_limits = true, names of the motors that have no limit; nil if all have one.
 ---@param options? {load?: number[], objective?: "min_sum"|"min_norm"|"min_max"|"max_margin"|"max_margin_sum", max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean, balance?: "exact"|"nearest"} # the load, the limits and the objective
 ---@return table result # `status`, `forces`, `objective`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 function forces:contact_forces(options) end
 
----The largest multiple `load` of a wrench on the object that forces at the contacts balance, its axes as in contact_forces. `status` "unlimited" if no cap and no torque limits it. The `certificate` names the contacts that yield beyond it. `unlimited_efforts` as in contact_forces.
----@param options {direction: number[], max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean} # the direction and the limits
+---The largest multiple `load` of a wrench on the object that contact forces balance, in the axes of contact_forces. `status` is "unlimited" if no cap and no torque limits it. The `certificate` names the contacts that yield beyond it. `unlimited_efforts` as in contact_forces. With `torques` the motors keep these torques at every load; "infeasible" if they balance no multiple, 0 included.
+---@param options {direction: number[], max_force?: number|number[], max_total_force?: number, total_force?: number, torque_limits?: boolean|number[], total_torque?: number, unilateral?: boolean, arms?: boolean, link_weights?: boolean, torques?: number[]} # the direction and the limits
 ---@return table result # `status`, `load`, `forces`, `margin`, `joint_torques`, `certificate`
 function forces:max_load(options) end
 
----Can the hand in its present posture hold the load (as in contact_forces)? Its joints must be balanced too: by motors through their couplings, within hand.effort_ranges, by springs, and by the clutches of joints that have broken away. The palm resists any force. `status`: "stable"; "unstable", then `unbalanced` is the smallest wrench that remains and `certificate` names what yields; "moving" if no contact forces balance the joints, so that a finger moves; "inaccurate".
+---The smallest torques of the motors that hold the object under each of several loads without being adjusted: their largest fraction of the limits is minimized. By default the torques are constant, and a finger moves unless friction transmits the change of the load to the palm or to joints at rest; with `locked` the joints do not move, as with worm gears: the torques press before the load is applied, and each contact then yields as a spring, equally stiff in all directions. `status`: "optimal"; "infeasible" if no torques hold all loads; "inaccurate". `torques`: one per DOF; `fraction`: largest torque as a fraction of its limit, of motors without a limit in N m or N; `normals`: per load, the normal force of each contact [N]. At one of the loads some contact is at the edge of its cone: loads larger than the true ones leave a margin. `unlimited_efforts` as in contact_forces.
+---@param options {loads: number[][], locked?: boolean, torque_limits?: boolean|number[], max_force?: number|number[], unilateral?: boolean, arms?: boolean, link_weights?: boolean} # the loads and the limits
+---@return table result # `status`, `torques`, `fraction`, `normals`
+function forces:optimal_preload(options) end
+
+---Can the hand in its present posture hold the load (as in contact_forces)? Its joints must be in equilibrium too: by motors through their couplings, within hand.effort_ranges, by springs, and by the clutches of joints that have broken away. The palm resists any force. `status`: "stable"; "unstable": `unbalanced` is the smallest remaining wrench, and `certificate` names what yields; "moving": no contact forces balance the joints, so that a finger moves; "inaccurate".
 ---@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|"springs"|"limits", max_force?: number|number[], arms?: boolean, link_weights?: boolean} # the load, the torques and the limits
 ---@return table result # `status`, `forces`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
 function forces:equilibrium(options) end
 
----From contact forces to the wrench on the object: six rows, in the object's frame about its center of mass, unscaled. Columns contact by contact: the normal force; with friction then the forces along x and y of contact.frame; of soft contacts then the torque about the normal.
+---Grasp map, which takes contact forces to the wrench on the object: six rows, in the object's frame about its center of mass, unscaled. Columns contact by contact: the normal force; with friction, the forces along x and y of contact.frame; for soft contacts, the torque about the normal.
 ---@return number[][]
 function forces:grasp_map() end
 
----Velocity of the contacts per DOF: a row for each column of the grasp map, a column for each DOF, by the ratios of its joints. Its transpose takes contact forces to the motors' torques. Joints that have broken away do not count.
+---Velocity of the contacts per DOF: a row for each column of the grasp map, a column for each DOF, with the ratios of its joints. Its transpose takes contact forces to motor torques. Joints that have broken away are left out.
 ---@return number[][]
 function forces:hand_jacobian() end
 
@@ -497,32 +502,32 @@ function forces:hand_jacobian() end
 ---@class measures: forces
 local measures = {}
 
----A measure of the grasp by name: "epsilon", "volume" and all that clench.measures() lists with definition, range, unit and source. Infinite if there is nothing to measure, such as the clearance of a hand alone. The world must have the state in which the grasp was measured.
+---A measure of the grasp by name: "epsilon", "volume" and all that clench.measures() lists with definition, range, unit and source. Infinite if there is nothing to measure, such as the clearance of a hand alone. The world must be in the state in which the grasp was measured.
 ---@param measure string # name of a quality measure, from clench.measures
 ---@return number
 function measures:quality(measure) end
 
----All measures at once, by name; those that are infinite are left out, and those that are not available, such as the volume of too many contacts with too many edges.
+---All measures at once, by name, without those that are infinite and those that are not available, such as the volume of too many contacts with too many edges.
 ---@return table<string, number>
 function measures:quality_all() end
 
----The largest multiple of a wrench on the object that contact forces in round cones balance, their normal parts summing to at most one newton (norm "L1") or each at most one ("Linf"); for several wrenches the smallest multiple; for an ellipsoid the largest that is resisted completely, by the friction cones of the grasp. World axes, torques about the center of mass.
+---The largest multiple of a wrench on the object that contact forces in round cones balance, with normal forces that sum to at most one newton (norm "L1") or are each at most one newton ("Linf"); for several wrenches the smallest such multiple; for an ellipsoid the largest multiple that is resisted completely, with the friction cones of the grasp. World axes, torques about the center of mass.
 ---@param options {wrench?: number[], wrenches?: number[][], ellipsoid?: number[], norm?: "L1"|"Linf"} # one of wrench, wrenches and ellipsoid
 ---@return number
 function measures:resistance(options) end
 
 ---The surfaces of two bodies around a soft contact, and the torsional friction that it transmits.
 ---@class patch
----@field relative_radii number[] # Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures. Where the surfaces separate more slowly than a ball of 2 m from a plane, or not at all, the `max_radius` of 20 mm is used for them, or the first radius when that is larger; between 1 m and 2 m the two are blended. [m]
+---@field relative_radii number[] # Radii of the gap between the surfaces along `directions`, the more curved first: 1 over the sum of both curvatures. For surfaces that separate more slowly than a ball of 2 m from a plane, or not at all, the `max_radius` of 20 mm is used, or the first radius if that is larger; between 1 m and 2 m the two are blended. [m]
 ---@field flat boolean[] # Is a relative radius the limit used for a flat direction?
 ---@field curvatures {body: number[], other: number[]} # Principal curvatures of the surfaces of both bodies, descending: positive where a surface falls away from the other body, as a ball's, negative where it rises, as a socket's. [1/m]
 ---@field radii {body: number[], other: number[]} # The principal radii of both, 1 over the curvatures: negative if a surface is concave; arbitrarily large if it is flat. [m]
 ---@field directions vec3[] # Directions of the relative radii: unit, orthogonal to each other and to the contact's normal, in the world frame.
----@field point vec3 # The middle of the patch, in the world frame: the contact's point, or the mean of those whose neighborhoods overlap. [m]
+---@field point vec3 # The middle of the patch, in the world frame: the contact's point, or the mean of several with overlapping neighborhoods. [m]
 ---@field points {body: vec3[], other: vec3[]} # The fitted points of both surfaces, in the world frame. [m]
 ---@field radius number # Radius of the neighborhood in which the surfaces were sampled. [m]
----@field residual number # Root mean square distance of the points from the fit, of the worse surface. [m]
----@field at_edge boolean # Is there a corner or an edge, at which curvature is not meaningful? Then only that part of the ellipse is used that certainly touches.
+---@field residual number # Root mean square distance of the points from the fit, for the surface that fits worse. [m]
+---@field at_edge boolean # Is there a corner or an edge, at which curvature is not meaningful? Then only the part of the ellipse is used that certainly touches.
 local patch = {}
 
 ---Contact ellipse of the bodies under load, by the bed-of-springs model (Winkler foundation): its semi-axes along `directions`, the indentation and the pressure in the middle, and the torsion radius, 8/15 of the semi-axes' geometric mean. It is nowhere wider than the bodies. At a corner, an edge or a rim the semi-axes are those of the area that certainly touches, in which the gap is at most the indentation of flat surfaces; the indentation is the depth at which the springs under the actual gap add up to the force, within the neighborhood. `exceeds_layer`: does it exceed the thickness of the soft layers, beyond which the model is invalid?
@@ -539,37 +544,37 @@ function patch:torsion_limit(options) end
 ---@class grasp: measures
 ---@field hand robot # The robot that grasps.
 ---@field object body # The body that is grasped.
----@field hand_name string # Name of the robot that grasps; a grasp outside any world has it, too.
+---@field hand_name string # Name of the robot that grasps; grasps outside any world have it, too.
 ---@field object_name string # Name of the body that is grasped.
----@field hand_file string? # File that the hand was read from, as it was named; nil: not known.
----@field object_file string? # File that the object was read from, as it was named; nil: not known.
----@field hand_fingerprint string # Fingerprint of the hand's shapes and joints when the grasp was measured: its `mechanism_fingerprint`; "" in a list from a file without it.
----@field object_fingerprint string # Fingerprint of the object's surface when the grasp was measured: that of its mesh; "" in a list from a file without it.
----@field settings_fingerprint string # Fingerprint of the options of its measures: edges, rho, soft, normal_force and modulus. Measures of grasps with equal ones can be compared.
----@field engine_version string # Version of Clench that measured the grasp; "" in a list from a file without it.
+---@field hand_file string? # Path from which the hand was read, as it was given; nil if unknown.
+---@field object_file string? # Path from which the object was read, as it was given; nil if unknown.
+---@field hand_fingerprint string # Fingerprint of the hand's shapes and joints when the grasp was measured (its `mechanism_fingerprint`); "" if the grasp is from a file without it.
+---@field object_fingerprint string # Fingerprint of the object's surface when the grasp was measured (that of its mesh); "" if the grasp is from a file without it.
+---@field settings_fingerprint string # Fingerprint of the options of the measures: edges, rho, soft, normal_force and modulus. Measures of grasps with equal fingerprints can be compared.
+---@field engine_version string # Version of Clench that measured the grasp; "" if the grasp is from a file without it.
 ---@field pose pose # Pose of the hand's base in the object's frame when the grasp was measured.
 ---@field dofs number[] # Values of the hand's DOFs when the grasp was measured. [rad or m]
----@field dof_names string[] # Names of these DOFs; empty in a list from a file that does not name them.
+---@field dof_names string[] # Names of these DOFs; empty if the grasp is from a file that does not name them.
 ---@field joint_positions number[] # Positions of the hand's joints when the grasp was measured. [rad or m]
----@field joint_names string[] # Names of these joints, followers included: those of the hand's file; else that of the DOF, of the joint that has its value; else "chain0_joint1". Empty in a list from a file that does not name them.
----@field joint_values number[] # The same positions in the convention of the hand's file, which other programs expect: they differ if the file's joint has another zero. [rad or m]
----@field measures table<string, number> # Measures that were asked for so far, by name; in a file they are kept with the grasp.
----@field info table<string, number> # Numbers that a script notes, by name: a seed, an energy, the number of a run. They are kept in files.
----@field labels table<string, string> # Words that a script notes, by name: its planner, its script. They are kept in files.
----@field pregrasp {pose: pose, dofs: number[]}? # The hand before it approaches the object and closes: the `pose` of its base in the object, and its `dofs`. nil: not known. Planners set it; files keep it.
----@field squeeze number[]? # Targets of the motors that press on the object, one per DOF, perhaps beyond its limits; nil: not known. Planners that verify set it; files keep it. [rad or m]
+---@field joint_names string[] # Names of these joints, including followers: that in the hand's file; otherwise the DOF's name, for the joint with the value of the DOF; otherwise "chain0_joint1". Empty if the grasp is from a file that does not name them.
+---@field joint_values number[] # The same positions in the convention of the hand's file, which other programs expect; the two differ if the file's joint has another zero. [rad or m]
+---@field measures table<string, number> # Measures that have been computed so far, by name; files store them with the grasp.
+---@field info table<string, number> # Numbers of a script, by name, such as a seed, an energy or the number of a run. Files store them.
+---@field labels table<string, string> # Texts of a script, by name, such as its planner or its file. Files store them.
+---@field pregrasp {pose: pose, dofs: number[]}? # The hand before it approaches the object and closes: the `pose` of its base in the object frame, and its `dofs`; nil if unknown. Planners set it; files store it.
+---@field squeeze number[]? # Motor targets that press on the object, one per DOF, possibly beyond its limits; nil if unknown. Planners that verify set it; files store it. [rad or m]
 ---@field collision_free boolean? # Was the grasp free of collisions? nil: not checked. Planners set it; files store it.
----@field epsilon number? # The measure "epsilon", as it was measured or, else, from its points; nil of a grasp from a file that has neither.
+---@field epsilon number? # The measure "epsilon", as it was measured or, otherwise, computed from the points; nil for a grasp from a file that has neither.
 ---@field contacts contact[] # The contacts on the object when the grasp was measured.
----@field points {point: vec3, normal: vec3, mu: number, torsion_radius: number}[] # The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 of hard fingers. [m]
----@field links string[] # Names of the touching bodies at each of the points.
----@field rho number # Length that torques are divided by. [m]
----@field com vec3 # The object's center of mass when the grasp was measured, in the object: torques are about it. [m]
+---@field points {point: vec3, normal: vec3, mu: number, torsion_radius: number}[] # The same contacts in the object's frame, as clench.wrench_space takes them; torsion_radius is 0 for hard fingers. [m]
+---@field links string[] # Name of the touching body at each of the points.
+---@field rho number # Length by which torques are divided. [m]
+---@field com vec3 # The object's center of mass when the grasp was measured, in the object frame; torques are about it. [m]
 ---@field edges integer|string # Edges of each friction pyramid, or "exact".
 ---@field options {edges: integer|string, rho: number, soft: boolean, normal_force: number|number[], modulus: string} # The options with which clench.grasp measures another grasp in the same way. rho [m], normal_force [N]
 local grasp = {}
 
----Puts the hand back into its pose relative to the object, wherever that is now, joints included, and measures the grasp there. Hand and object are found by their names unless they are given, DOFs by theirs if the grasp has them; DOFs that it does not have keep their values. Joints that a DOF moves may be listed, too: a warning names one that differs from the value given by its DOF. A value up to 0.02 rad or 1 mm beyond a limit is set to the limit, with a warning if it is more than the rounding of 32 bits. DOFs without names are taken in the hand's order, with a warning if Isaac Sim numbers them otherwise, unless `dof_order` gives the order: "hand", "isaac", breadth first, or a list of names. If an arm carries the hand, the arm moves with everything that it carries, to the posture that `ik` finds first from its present one. Nothing else moves, and collisions are not checked: see `world:collides`. A warning names a hand whose shapes or joints, or an object whose surface differs from the one that the grasp was measured with; masses, materials, limits and motors may differ.
+---Puts the hand back into its pose relative to the object at the object's present pose, sets its joints, and measures the grasp there. Hand and object are found by name unless they are given. DOFs are found by name if the grasp has names; DOFs that it does not contain keep their values. Joints that a DOF moves may be listed, too: a warning names one that differs from the value given by its DOF. A value up to 0.02 rad or 1 mm beyond a limit is set to the limit, with a warning if it is more than the rounding of 32 bits. DOFs without names are taken in the hand's order, with a warning if Isaac Sim numbers them differently, unless `dof_order` gives the order: "hand"; "isaac", which is breadth first; or a list of names. If an arm carries the hand, the arm moves with everything that it carries, to the first posture that `ik` finds from its present one. Nothing else moves, and collisions are not checked: see `world:collides`. A warning names a hand with other shapes or joints, or an object with another surface, than those of the measured grasp; masses, materials, limits and motors may differ.
 ---@param world? world # default: its own
 ---@param options? {hand?: robot, object?: body, dof_order?: string|string[]} # the hand and the object, if not those of the grasp's names
 ---@return grasp
@@ -581,12 +586,12 @@ function grasp:apply(world, options) end
 ---@return number[] dofs, number[]? pregrasp # [rad or m]
 function grasp:dofs_for(hand, options) end
 
----Writes the grasp in its world as a scene of MuJoCo, as world:save does. The base of the hand is on slides, named carriage_x, carriage_y and carriage_z, along the axes of the world. The keys "pregrasp", "grasp" and "lift" hold postures, and controls of the motors: in "grasp" and "lift" they press to the targets of `squeeze`, or, without it or with `force`, with contact forces in equilibrium; between "grasp" and "lift" the hand rises.
+---Writes the grasp in its world as a scene of MuJoCo, as world:save does. The base of the hand is on slides, named carriage_x, carriage_y and carriage_z, along the axes of the world. The keyframes "pregrasp", "grasp" and "lift" contain postures and motor controls: in "grasp" and "lift" the motors press towards the targets of `squeeze`, or, without it or with `force`, with contact forces in equilibrium; between "grasp" and "lift" the hand rises.
 ---@param path string # .xml or .mjcf
 ---@param options? {force?: number, height?: number, confine?: string} # the keys of the scene
 function grasp:save(path, options) end
 
----Can it resist every wrench?
+---Can the grasp resist every wrench?
 ---@return boolean
 function grasp:is_force_closure() end
 
@@ -597,25 +602,25 @@ function grasp:wrench_space(options) end
 
 ---Which wrenches the contacts resist, and with how much effort.
 ---@class wrench_space
----@field rank integer # Dimension that the wrenches span, 0 to that of the space.
+---@field rank integer # Dimension of the span of the wrenches, from 0 to that of the space.
 ---@field norm string # "L1" or "Linf".
----@field coordinates string[] # The coordinates that count.
+---@field coordinates string[] # The coordinates of the space.
 local wrench_space = {}
 
----Radius of the largest ball of wrenches that is resisted; 0 unless force closure. Good to 1e-12, with round cones to 1e-9 or, if that takes too many facets (rings of equal contacts, large friction), a certified lower bound: epsilon_bounds has both bounds.
+---Radius of the largest ball of resisted wrenches; 0 without force closure. Accurate to 1e-12, with round cones to 1e-9 or, if that takes too many facets (rings of equal contacts, large friction), a certified lower bound: epsilon_bounds returns both bounds.
 ---@return number
 function wrench_space:epsilon() end
 
----A certified bracket around epsilon, no tighter than need be: it ends when upper - lower is within the tolerance (1e-6), or as soon as epsilon is known to reach or miss at_least.
+---Certified bounds of epsilon, no tighter than necessary: refinement ends when upper - lower is within the tolerance (1e-6), or as soon as epsilon is known to reach or miss at_least.
 ---@param options? {tolerance?: number, at_least?: number} # when it ends
 ---@return {lower: number, upper: number, converged: boolean, reached?: boolean} # converged: within the tolerance; reached: lower >= at_least
 function wrench_space:epsilon_bounds(options) end
 
----Volume in the coordinates that count; 0 when the space is flat. With round cones the middle of volume_bounds. In "Linf" five hard contacts of eight edges or three soft ones are about the maximum: beyond 60,000 cells it is an error that states so.
+---Volume in the coordinates of the space; 0 if the space is flat. With round cones, the middle of volume_bounds. With "Linf", about five hard contacts of eight edges or three soft ones are the maximum: more than 60,000 cells are an error that states so.
 ---@return number
 function wrench_space:volume() end
 
----A certified bracket around the volume: with round cones, that of pyramids within them and of the same ones grown until they are around. Both are the volume without round cones.
+---Certified bounds of the volume: with round cones, the volume for pyramids inside the cones and that for the same pyramids enlarged until they enclose the cones. Without round cones both are the volume.
 ---@param options? {edges?: integer} # how exact they are
 ---@return {lower: number, upper: number}
 function wrench_space:volume_bounds(options) end
@@ -624,7 +629,7 @@ function wrench_space:volume_bounds(options) end
 ---@return boolean
 function wrench_space:is_force_closure() end
 
----The wrench on the object that is resisted worst, and the contacts that yield first when it grows.
+---The wrench on the object that is resisted least, and the contacts that yield first as it grows.
 ---@return {direction: number[], resistance: number, contacts: index[]} # unit wrench, torque over rho; its largest multiple resisted, below 0 when all contacts push along it; numbers of the contacts that push against it at their limit
 function wrench_space:weakest() end
 
@@ -632,21 +637,21 @@ function wrench_space:weakest() end
 ---@return number[][][]
 function wrench_space:wrenches() end
 
----The space in three coordinates. Of the others, `fixed` ones have a value, which gives its section, and `projected` ones may be anything, which gives its projection.
+---The space in three coordinates. Of the others, `fixed` ones have a value, which gives a section, and `projected` ones may have any value, which gives a projection.
 ---@param options? {fixed?: {fx?: number, fy?: number, fz?: number, tx?: number, ty?: number, tz?: number}, projected?: string[], tolerance?: number} # the three coordinates that remain
 ---@return projection
 function wrench_space:project(options) end
 
 ---A wrench space in three coordinates.
 ---@class projection
----@field volume number # Volume in the three coordinates; 0 when it is flat.
----@field mesh mesh # Its surface, x y z the free coordinates; nil when it is flat.
----@field free string[] # The coordinates that are left, which are x, y and z of the mesh.
+---@field volume number # Volume in the three coordinates; 0 if it is flat.
+---@field mesh mesh # Its surface, with the free coordinates as x, y and z; nil if it is flat.
+---@field free string[] # The free coordinates, which are x, y and z of the mesh.
 ---@field fixed table<string, number> # The values of the coordinates that were fixed.
----@field projected string[] # The coordinates that may be anything.
+---@field projected string[] # The coordinates that may have any value.
 local projection = {}
 
----Draws it, transparent, with its axes and their numbers [N], the ball of epsilon as far as it lies in it, and the weakest direction; size, samples and camera as in clench.render.
+---Draws it transparently, with its axes and their numbers [N], the part of the ball of epsilon that lies in it, and the weakest direction; size, samples and camera as in clench.render.
 ---@param options? {ball?: boolean, weakest?: boolean, size?: integer[], quality?: "paper"|"draft", background?: "studio"|"white"|"transparent", outline?: number, letters?: number, samples?: integer, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, camera?: {eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number}} # what is shown, and the picture
 ---@return picture
 function projection:render(options) end
@@ -676,7 +681,7 @@ function picture:pixel(x, y) end
 ---@return integer alpha
 function picture:alpha(x, y) end
 
----The nearest surface under a pixel of a picture of a world, as the world was when it was drawn; transparent bodies count. nil if there is none. `body` and `other` are nil if they were removed since.
+---The nearest surface under a pixel of a picture of a world, in the state in which it was drawn; transparent bodies count. nil if there is none. `body` and `other` are nil if they have been removed since.
 ---@param x index # column, from the left
 ---@param y index # row, from the top
 ---@return table? picked # {kind: string, body?: body, other?: body, point: vec3, normal: vec3, distance: number}  kind: "body"; "contact" (a cone) or "patch", where body is touched by other; "approach", where body is the base of the robot; "force"; "floor"; or "other"; point: [m]; normal: unit, to the side of the camera; distance: from the camera [m]
@@ -684,22 +689,22 @@ function picture:pick(x, y) end
 
 ---Numbers as a figure, made by `clench.plot` or `clench.chart`. Two with the same contents are equal.
 ---@class plot
----@field picture picture # It as pixels, on white.
+---@field picture picture # The figure as pixels, on white.
 ---@field width integer # Its width [pixels].
 ---@field height integer # Its height [pixels].
 local plot = {}
 
----Writes a file: .svg, whose lines and letters a program for papers can change, or .png.
+---Writes a file: .svg, whose lines and letters drawing programs can edit, or .png.
 ---@param path string # file to write, .svg or .png
 function plot:save(path) end
 
 ---Progress of a script's loop, as shown by `clench.progress`.
 ---@class progress
----@field done number # Steps that are done.
----@field total number # Steps in all; 0 when that is not known.
+---@field done number # Number of steps that are done.
+---@field total number # Total number of steps; 0 if unknown.
 local progress = {}
 
----Counts so many more steps as done.
+---Counts the given number of steps as done.
 ---@param count? number # default 1
 ---@param text? string # shown beside the bar from now on
 function progress:step(count, text) end
@@ -716,12 +721,12 @@ local grasps = {}
 ---@return integer count
 function grasps:add(grasp) end
 
----Writes the list. JSON lines (`.jsonl`, or no ending) store everything: a head with the version, then a grasp on each line, with bit-exact numbers. `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are known by their endings, too, GraspGen's and MultiGripperGrasp's `.json` by `format`; a warning names everything that a format cannot represent. The same list gives the same bytes.
+---Writes the list. JSON lines (`.jsonl`, or no ending) store everything: a head with the version, then a grasp on each line, with bit-exact numbers. `.csv`, `.npz` and `.yaml` (NVIDIA's isaac_grasp) are selected by their endings, too, `.json` of GraspGen and MultiGripperGrasp by `format`; a warning names everything that a format cannot represent. The same list gives the same bytes.
 ---@param path string # file to write; its ending selects the format
 ---@param options? {format?: string, notes?: table, compress?: boolean} # how it is written
 function grasps:save(path, options) end
 
----Checks that `save` can write there, before a long search for instance: the format is known, the folder exists, and file and folder may be written. Changes no file.
+---Checks that `save` can write there, for instance before a long search: the format is known, the folder exists, and file and folder are writable. Changes no file.
 ---@param path string # file that is to be written; its ending selects the format
 ---@param options? {format?: string} # how it would be written
 ---@return string format
@@ -729,10 +734,10 @@ function grasps:check_save(path, options) end
 
 ---A function that rates the pose and posture of a hand relative to an object, made by `clench.energy`.
 ---@class energy
----@field any_thread boolean # Does it consist only of the engine's terms? One with a function of a script runs on the script's thread, and in its world.
+---@field any_thread boolean # Does it consist only of the engine's terms? A term with a function of a script runs on the script's thread, and in its world.
 local energy = {}
 
----The same, but never below `low` nor above `high`; nil: no such bound.
+---The same term, clamped to at least `low` and at most `high`; nil: no such bound.
 ---@param low? number # lower bound
 ---@param high? number # upper bound
 ---@return energy
@@ -740,10 +745,10 @@ function energy:within(low, high) end
 
 ---A function that runs concurrently with the script, started by `clench.job`.
 ---@class job
----@field state "queued"|"running"|"paused"|"done"|"failed"|"stopped" # Its present phase.
+---@field state "queued"|"running"|"paused"|"done"|"failed"|"stopped" # Its present state.
 ---@field name string # Its name in messages.
 ---@field progress {fraction?: number, text: string} # Progress of its longest call, or of the loop that it shows by `clench.progress`. fraction: of the work, in [0, 1]; nil: not known
----@field snapshot any # The latest value that it has shown by `clench.this_job:show`; nil before the first.
+---@field snapshot any # The latest value shown by `clench.this_job:show`; nil before the first.
 local job = {}
 
 ---Waits for its end. Coroutines of `clench.loop` do not run meanwhile: in them, `clench.loop.wait(job)` waits.
@@ -755,13 +760,13 @@ function job:wait(seconds) end
 ---@return any ...
 function job:result() end
 
----Stops it within some 100 ms, in Lua and in calls of the engine; other programs that it has started and not waited for to the end are ended, too. In a call of string.find with a hostile pattern it ends after that call. A job that is over is not affected.
+---Stops it within about 100 ms, in Lua and in calls of the engine; other programs that it has started and not waited for to the end are ended, too. A call of string.find with a hostile pattern ends first. A job that is over is not affected.
 function job:stop() end
 
----Holds it at its next instruction in Lua; a call of the engine ends first.
+---Pauses it at its next instruction in Lua; a call of the engine ends first.
 function job:pause() end
 
----Lets it run on after `pause`.
+---Lets it continue after `pause`.
 function job:resume() end
 
 ---All values that it has sent by `clench.this_job:event` since the last call, in order.
@@ -777,7 +782,7 @@ local this_job = {}
 ---@param value any # of the kinds that clench.parallel.map hands over
 function this_job:event(value) end
 
----Shows a value, which becomes `job.snapshot`, in place of the previous one.
+---Shows a value, which becomes `job.snapshot` and replaces the previous one.
 ---@param value any # of the kinds that clench.parallel.map hands over
 function this_job:show(value) end
 
@@ -788,7 +793,7 @@ function this_job:show(value) end
 ---@field values table # Values of its variables by name.
 ---@field energy number # Energy of the present state; infinite if it begins in collision.
 ---@field first_energy number # Energy of the initial state.
----@field counts table # Counts of its steps: `steps`, `accepted`, `improved`; and of rejected neighbors: `in_collision`, `avoided`, `outside` their ranges; `stuck`: number of steps in which all attempts failed.
+---@field counts table # Counts of its steps: `steps`, `accepted`, `improved`; and of rejected neighbors: `in_collision`, `avoided`, `outside` (their ranges); `stuck`: number of steps in which all attempts failed.
 local annealing = {}
 
 ---Takes steps, each to a legal neighbor that is accepted or not.
@@ -796,16 +801,16 @@ local annealing = {}
 ---@return integer taken # fewer where 10,000 tries in a row found no legal neighbor
 function annealing:run(steps) end
 
----Goes around a state from now on: its like are illegal.
+---Avoids a state from now on: states similar to it are illegal.
 ---@param state {pose: pose, dofs: number[], energy?: number, step?: integer, values?: table} # as `best` lists them; other fields of such an item are ignored
 function annealing:avoid(state) end
 
----Goes to a state, or as near as its variables can.
+---Sets a state, or the nearest one that its variables can represent.
 ---@param state {pose: pose, dofs: number[], energy?: number, step?: integer, values?: table} # as `best` lists them; other fields of such an item are ignored
 ---@return table values
 function annealing:go_to(state) end
 
----Begins the schedule of temperatures anew.
+---Restarts the schedule of temperatures.
 function annealing:reset() end
 
 ---Clears the list of the best states; avoided states remain avoided.
@@ -813,9 +818,9 @@ function annealing:clear() end
 
 ---Settings of a world: friction of materials, collision filters, gravity, its camera, its named states.
 ---@class world_settings
----@field contact_threshold number # Surfaces closer than this touch; motion stops with a gap below it. [m]
----@field materials string[] # Names of the materials, the seven of the original first.
----@field camera {eye: vec3, target: vec3, up: vec3, field_of_view: number}? # The camera of its file, as `clench.render` takes it: `clench.render(world, world.camera)`. nil when the file has none. It is set by such a table, or by `pose` (it looks along -z, y up) and `focal_distance` [m].
+---@field contact_threshold number # Surfaces closer than this are in contact; motion stops with a gap below it. [m]
+---@field materials string[] # Names of the materials, beginning with the seven of GraspIt!.
+---@field camera {eye: vec3, target: vec3, up: vec3, field_of_view: number}? # The camera of its file, as `clench.render` takes it: `clench.render(world, world.camera)`. nil when the file has none. Set it to such a table, or to one with `pose` (the camera looks along -z, y up) and `focal_distance` [m].
 ---@field gravity vec3 # Gravitational acceleration of joints and objects, in the world frame. [m/s^2]
 ---@field keyframes string[] # Names of its saved states, those of its file first; `set_keyframe` restores them.
 local world_settings = {}
@@ -826,13 +831,13 @@ local world_settings = {}
 ---@param b? body|robot # the other of two; without it, all pairs of the first
 function world_settings:set_collision(on, a, b) end
 
----Does collision count for a pair, for one entity with anything, or for anything in the world? False for pairs that `set_collision` or `set_collision_bits` has switched off, and for neighbors of a robot.
+---Is collision enabled for a pair, for one entity with anything, or for anything in the world? False for pairs that `set_collision` or `set_collision_bits` has switched off, and for neighbors of a robot.
 ---@param a? body|robot # one of two; without both, any pair counts
 ---@param b? body|robot # the other of two; without it, any body
 ---@return boolean
 function world_settings:may_collide(a, b) end
 
----Sets the collision bits of bodies, like `contype` and `conaffinity` of MuJoCo: two bodies with bits, not of one robot, collide if the type of one and the affinity of the other share a bit. Fixed bodies do not collide with each other. A later `world:set_collision(true, a, b)` makes a pair collide whatever its bits are.
+---Sets the collision bits of bodies, like `contype` and `conaffinity` of MuJoCo: two bodies with bits, not of one robot, collide if the type of one and the affinity of the other share a bit. Fixed bodies do not collide with each other. A later `world:set_collision(true, a, b)` makes a pair collide with any bits.
 ---@param entity body|robot # body or robot to set
 ---@param bits? {type?: integer, affinity?: integer, fixed?: boolean} # the bits
 function world_settings:set_collision_bits(entity, bits) end
@@ -851,7 +856,7 @@ function world_settings:set_friction(a, b, friction) end
 ---@return number? restitution # where the pair has one of its own
 function world_settings:friction(a, b) end
 
----Gives a name to the present state, or to one given by a list. It replaces a keyframe of the same name.
+---Stores the present state, or one given by a list, under a name. It replaces a keyframe of the same name.
 ---@param name string # name of the keyframe
 ---@param states? table[] # {body = body, pose = pose} and {robot = robot, pose = pose?, dofs = number[], or some by name}; what is not listed stays where it is; DOFs that are not named get the values that they have now
 function world_settings:add_keyframe(name, states) end
@@ -871,7 +876,7 @@ local world_queries = {}
 ---@return table?
 function world_queries:raycast(origin, direction, reach) end
 
----Does anything collide that may, or one entity with anything? The fastest test: it ends at the first pair that is found.
+---Does any enabled pair of bodies collide, in the world or of one entity with anything? The fastest test: it ends at the first pair that is found.
 ---@param entity? body|robot # body or robot to test against all others
 ---@return boolean
 function world_queries:collides(entity) end
@@ -883,7 +888,7 @@ function world_queries:collides(entity) end
 ---@return body[][] # pairs
 function world_queries:colliding(a, b, options) end
 
----Least distance of two things, 0 when they collide, with the closest points in the world frame.
+---Minimum distance of two things, 0 if they collide, with the closest points in the world frame.
 ---@param a body|robot # one of two
 ---@param b body|robot # the other
 ---@return number distance # [m]; infinite where one has no surface, and from a body to itself
@@ -891,7 +896,7 @@ function world_queries:colliding(a, b, options) end
 ---@return vec3 on_b
 function world_queries:distance(a, b) end
 
----Depth of the overlap: the largest distance, from the surface of `b`, of a point of `a` inside it, with that point in the world frame. It is at most 1 um + 0.1 % below the true one, and 0 only if the two do not overlap or just touch. Nothing is inside an open mesh: if that of `b` is open, points of `b` inside `a` count; if both are, the depth is infinite if they intersect.
+---Depth of the overlap: the largest distance from the surface of `b` of all points of `a` inside it, with that point in the world frame. It is at most 1 um + 0.1 % below the true one, and 0 only if the two do not overlap or just touch. Nothing is inside an open mesh: if that of `b` is open, points of `b` inside `a` count; if both are, the depth is infinite if they intersect.
 ---@param a body|robot # one of two
 ---@param b body|robot # the other
 ---@return number depth # [m]
@@ -908,27 +913,27 @@ function world_queries:contacts(a, b) end
 ---@class world_dynamics: world_control
 ---@field time number # Simulation time. [s]
 ---@field time_step number # Length of the steps of `run`; from 1e-7 to 1. [s]
----@field dynamics {time_step: number, engine: string, cone: string, edges: integer} # Solver settings; a copy, and setting a table changes the keys that it contains. `engine`: "clench", or "ode", which solves the same contacts by another library, at most 1,000 points in a step; `cone`: friction cones are "round", or a "pyramid" of `edges` edges, of which bodies that touch each other have at most 6,000; more is an error of the kind "limit".
+---@field dynamics {time_step: number, engine: string, cone: string, edges: integer} # Solver settings. Returns a copy; setting a table changes the keys that it contains. `engine`: "clench", or "ode", which solves the same contacts with the library ODE, at most 1,000 points per step; `cone`: friction cones are "round", or a "pyramid" of `edges` edges, of which each group of touching bodies has at most 6,000; more is an error of the kind "limit".
 ---@field report {steps: integer, impacts: integer, iterations: integer, fallbacks: integer, failures: integer, overlaps: integer, contacts: integer, residual: number, max_residual: number} # Statistics of steps: their number, those that ended early because bodies collided (`impacts`), the effort of the solver (`iterations`; `fallbacks`, groups of touching bodies that needed its slow methods, and `failures`, groups that it did not solve to 1e-9 m/s, or 1e-8 m/s for bodies at rest), overlapping pairs (`overlaps`), points that touched in the last step, and the residuals of the solutions as velocities [m/s].
 local world_dynamics = {}
 
----Simulates: everything that is free moves by gravity, contacts and the motors of robots. Each step first moves bodies with the velocities that they have, then finds contacts, then solves for new velocities. Afterwards exactly so much time has passed.
+---Simulates: all free bodies move under gravity, contacts and the motors of robots. Each step first moves bodies with their present velocities, then finds contacts, then solves for new velocities. The simulation time advances by exactly the given time.
 ---@param seconds number # [s]
 function world_dynamics:run(seconds) end
 
----The first half of a step: moves everything with the velocity that it has, until the time has passed or two bodies that approach each other touch.
+---First half of a step: moves everything with its present velocity, until the time has passed or two approaching bodies touch.
 ---@param dt number # [s]
 ---@return number passed # in (0, dt] [s]
 function world_dynamics:move_bodies(dt) end
 
----The second half of a step: the velocities that contacts, forces, motors and limits leave after the time in which they act.
+---Second half of a step: computes the velocities that result after contacts, forces, motors and limits have acted for the given time.
 ---@param h number # what move_bodies gave [s]
 function world_dynamics:solve_velocities(h) end
 
----Clears the forces and torques of `apply_force` and `apply_torque` for the next step.
+---Clears the forces and torques that `apply_force` and `apply_torque` have set for the next step.
 function world_dynamics:clear_forces() end
 
----Total momentum of all objects and robots; the angular one about the origin of the world.
+---Total momentum of all objects and robots; the angular momentum is about the origin of the world.
 ---@return {linear: vec3, angular: vec3} # [kg m/s], [kg m^2/s]
 function world_dynamics:momentum() end
 
@@ -936,33 +941,33 @@ function world_dynamics:momentum() end
 ---@return {kinetic: number, potential: number} # [J]
 function world_dynamics:energy() end
 
----Contact force on each of some bodies in the last step: the sum of the forces and their center. Bodies on which nothing presses are left out.
+---Resultant contact force on each of the given bodies in the last step, and its center. Bodies on which nothing presses are left out.
 ---@param links body|body[] # link or links whose contacts are averaged
 ---@return {link: body, force: vec3, point: vec3, count: integer}[] # [N], [m]
 function world_dynamics:average_contacts(links) end
 
----Scripts that take part while a world runs.
+---Functions of scripts that a running world calls.
 ---@class world_control: world_settings
 local world_control = {}
 
----Calls a function while the world runs, before each step or at intervals: fn(world, dt), with the length of the step that comes (an impact may cut it short), or of the time until it is called again [s]. Functions are called in the order in which they were given; an error in one ends the run, and states its place. They belong to the world, not to its clones or snapshots.
+---Registers a function that is called while the world runs, before each step or at intervals: fn(world, dt), with dt the length of the next step (an impact may cut it short) or, with an interval, the time until the next call [s]. Functions are called in the order of their registration; an error in one ends the run, and its message names the place. They belong to the world, not to its clones or snapshots.
 ---@param fn function # called after each step
 ---@param options? {rate?: number} # how often
 ---@return table handle # `remove()` ends it
 function world_control:on_step(fn, options) end
 
----Runs a function concurrently with the world, as a coroutine: fn(task). It continues when `task.wait(seconds)` is over, when `task.wait_until(condition, timeout)` finds the function `condition` true and returns true, or after the time, and returns false, and before the next step after `task.wait_step()`. Tasks continue before steps, after the functions of on_step, in the order in which they were spawned; an error in one ends the run. A yield of nothing waits for the next step; a yield of anything else is an error.
+---Runs a function concurrently with the world, as a coroutine: fn(task). `task.wait(seconds)` returns after that time; `task.wait_until(condition, timeout)` returns true as soon as the function `condition` returns true, or false after the timeout; `task.wait_step()` returns before the next step. Tasks continue before steps, after the functions of on_step, in the order in which they were spawned; an error in one ends the run. A yield without values waits for the next step; a yield of anything else is an error.
 ---@param fn function # function that runs as a coroutine in the time of the world
 ---@return table handle # `remove()` ends it; `status`: "waiting", "done", "failed" or "removed"
 function world_control:spawn(fn) end
 
----Has a function called after each step in which something happens: "contact", two bodies touch that did not before, fn {kind, time, a, b, point, force}, with the middle of the contact [m] and the force on b [N]; "contact_lost", {kind, time, a, b}; "limit", a DOF reaches an end of its range, {kind, time, robot, dof, side, value}, with its number and "low" or "high".
+---Registers a function that is called after each step with an event: "contact", two bodies touch that did not before, fn {kind, time, a, b, point, force}, with the middle of the contact [m] and the force on b [N]; "contact_lost", {kind, time, a, b}; "limit", a DOF reaches an end of its range, {kind, time, robot, dof, side, value}, with its number and "low" or "high".
 ---@param event "contact"|"contact_lost"|"limit" # name of the event
 ---@param fn function # called at each such event
 ---@return table handle # `remove()` ends it
 function world_control:on(event, fn) end
 
----Records quantities while the world runs, from its first step on, at a rate of its time. `quantities` lists, in order: bodies, of whose position and velocity are recorded; robots, their DOFs, velocities and efforts; "energy", "momentum", "contacts", "failures"; and by their names functions(world) that give a number, true or false, a vector, or a list of numbers that stays as long. Time is noted first.
+---Records quantities while the world runs, from its first step on, at a rate in simulation time. `quantities` lists, in order: bodies, for their position and velocity; robots, for their DOFs, velocities and efforts; "energy", "momentum", "contacts", "failures"; and, by name, functions(world) that return a number, a boolean, a vector, or a list of numbers of constant length. The time is recorded first.
 ---@param options {rate?: number, quantities: table} # what is noted, and how often
 ---@return log log # `rows`, a list of {time, ...}; `columns`, their names; `save(path)`, as .csv or .npz; `remove()` ends it
 function world_control:log(options) end
@@ -972,22 +977,22 @@ function world_control:log(options) end
 ---@return recording recording # `times`; `save(path, options)`, see the guide; `remove()` ends it
 function world_control:record(options) end
 
----Pushes the state of the world onto a separate stack.
+---Saves the state of the world on top of its stack of states.
 ---@return integer depth # how many lie there now
 function world_control:push() end
 
----Goes back to the state that was pushed last, and takes it from the stack.
+---Restores the state that was pushed last, and removes it from the stack.
 ---@return integer depth # how many are left
 function world_control:pop() end
 
 ---Motion of bodies and robots: velocity, and applied forces.
 ---@class motion: entity
----@field velocity {linear: vec3, angular: vec3} # Velocity of its center of mass and angular velocity, in world axes. An obstacle and the base of a robot keep theirs, independent of contacts. A copy; setting a table changes the keys that it contains. Setting a pose brings a body to rest. [m/s], [rad/s]
----@field surface_velocity vec3 # Surface velocity of a conveyor belt: touching bodies are carried along at this velocity, in its own frame, while it does not move. Only the component along the surface counts. [m/s]
+---@field velocity {linear: vec3, angular: vec3} # Velocity of its center of mass and angular velocity, in world axes. Contacts do not change the velocities of obstacles and of bases of robots. Returns a copy; setting a table changes the keys that it contains. Setting a pose brings a body to rest. [m/s], [rad/s]
+---@field surface_velocity vec3 # Surface velocity of a conveyor belt, in the body frame: touching bodies are carried along at this velocity although the belt's body does not move. Only the component along the surface counts. [m/s]
 ---@field welded_to body? # The body that it is welded to, or nil.
 local motion = {}
 
----Applies a force in the next step only; forces add up. Neither an obstacle nor the base of a robot that does not float can be pushed.
+---Applies a force in the next step only; forces add up. Obstacles and bases of robots that do not float cannot be pushed.
 ---@param force vec3 # in world axes [N]
 ---@param point? vec3 # where, in the world; its center of mass by default [m]
 function motion:apply_force(force, point) end
@@ -996,27 +1001,27 @@ function motion:apply_force(force, point) end
 ---@param torque vec3 # in world axes [N m]
 function motion:apply_torque(torque) end
 
----Welds it to another body at their present relative pose: in runs it moves as a part of that, with its mass, until it is unwelded. Contacts between the two end. Their momentum is conserved, as in a perfectly inelastic collision. If one is placed by a script, they stay welded at the new relative pose. Collision tests are not affected.
+---Welds it to another body at their present relative pose: in runs the two move as one rigid body, until it is unwelded. Contacts between the two end. Their momentum is conserved, as in a perfectly inelastic collision. If a script moves one of them, they stay welded at the new relative pose. Collision tests are not affected.
 ---@param to body|robot # a body that does not hang on it by welds; of a robot its base
 function motion:weld(to) end
 
----Removes the weld: it continues separately, with its present velocity.
+---Removes the weld: from then on it moves separately, starting at its present velocity.
 function motion:unweld() end
 
----Masses and forces as a robot's DOFs feel them.
+---Masses and forces in the coordinates of a robot's DOFs.
 ---@class joint_dynamics: motion
----@field gains {kp: number, kd: number}[] # Position gains of its motors, one per DOF: those set by a script; otherwise those of its file; otherwise such that a DOF returns at 60 rad/s with critical damping at its present posture. Set a list of them, or some by the names of their DOFs, with false for those of the file; nil: all of the file. [N m/rad or N/m], [N m s/rad or N s/m]
+---@field gains {kp: number, kd: number}[] # Position gains of its motors, one per DOF: those set by a script; otherwise those of its file; otherwise chosen such that a DOF settles at 60 rad/s with critical damping at its present posture. Set to a list, or to a table by DOF names, with false for the gains of the file; nil restores all of those. [N m/rad or N/m], [N m s/rad or N s/m]
 local joint_dynamics = {}
 
 ---Mass matrix of its DOFs at its present posture: half of v M v is the kinetic energy at DOF velocities v of the robot and everything that it carries, with its base fixed. It includes the armature of the joints.
 ---@return number[][] rows # one row and one column per DOF [kg m^2, kg m or kg]
 function joint_dynamics:mass_matrix() end
 
----Forces on its DOFs that velocities cause (Coriolis, centrifugal), and weight, unless its motors compensate that: what motors have to give so that no DOF accelerates, joints without springs and friction.
+---Generalized forces on its DOFs due to velocities (Coriolis, centrifugal) and to weight, unless its motors compensate that: the efforts for which no DOF accelerates, without springs and friction of the joints.
 ---@return number[] forces # one per DOF [N m or N]
 function joint_dynamics:bias_forces() end
 
----Forces of its motors required for these accelerations of the DOFs, without contacts: mass matrix, bias forces, springs and viscous friction of the joints; not their dry friction.
+---Motor efforts required for these accelerations of the DOFs, without contacts: from the mass matrix, bias forces, springs and viscous friction of the joints, but not their dry friction.
 ---@param accelerations number[] # one per DOF [rad/s^2 or m/s^2]
 ---@return number[] forces # one per DOF, as set_forces takes them [N m or N]
 function joint_dynamics:inverse_dynamics(accelerations) end
@@ -1025,26 +1030,26 @@ function joint_dynamics:inverse_dynamics(accelerations) end
 ---@class robot_dynamics: joint_dynamics
 ---@field dof_velocities number[] # Velocities of its degrees of freedom; a copy. [rad/s or m/s]
 ---@field dof_efforts number[] # Forces of its motors in the last step. [N m or N]
----@field controller "position"|"velocity"|"effort"|"none"|"mixed" # Mode of its motors: "position", they hold it at its targets by the gains of its file; "velocity", they keep the velocities that are set; "effort", they exert only the forces given by set_forces, as DOFs that no actuator of a MuJoCo file drives do initially ("none" is a synonym); "mixed": not all equal. `set_targets`, `set_target_velocities` and `autograsp {dynamic = true}` switch the DOFs that they move.
----@field gravity_compensation boolean # Do its motors compensate the weight of its own links, without bodies welded to them, as controllers of real arms do? A floating robot has all its weight.
----@field breakaway boolean # Do joints leave its breakaway DOFs while the world runs, if a contact exceeds the breakaway torque? They are then locked until the opening DOF returns to them. Otherwise, as in GraspIt!'s dynamics, the DOF drives all its joints rigidly.
+---@field controller "position"|"velocity"|"effort"|"none"|"mixed" # Mode of its motors: "position", they hold their targets with `gains`; "velocity", they hold the velocities that are set; "effort" (or its synonym "none"), they exert only the forces given by set_forces, which is the initial mode of DOFs that no actuator of a MuJoCo file drives; "mixed": not all equal. `set_targets`, `set_target_velocities` and `autograsp {dynamic = true}` switch the DOFs that they move.
+---@field gravity_compensation boolean # Do its motors compensate the weight of its own links, without bodies welded to them, as controllers of real arms do? The weight of a floating robot is never compensated.
+---@field breakaway boolean # Do joints leave their breakaway DOFs while the world runs, if a contact exceeds the breakaway torque? They are then locked until the opening DOF returns to them. Otherwise, as in GraspIt!'s dynamics, the DOF drives all its joints rigidly.
 ---@field floating boolean # Is its base free to move? Otherwise it is fixed, or moves with its set velocity.
 local robot_dynamics = {}
 
----Force of each motor from now on: in addition to that of its controller, or alone with the controller "none". DOFs that a table by names leaves out keep their forces.
+---Sets the force of each motor from now on: in addition to that of its controller, or alone with the controller "none". DOFs that are absent from a table by names keep their forces.
 ---@param forces number[]|table<string, number> # [N m or N]
 function robot_dynamics:set_forces(forces) end
 
----Targets of its motors: reached at once, or on a smooth path (a polynomial of the fifth degree in time). DOFs that a table by names leaves out keep theirs.
+---Sets the targets of its motors: at once, or along a smooth path (a quintic polynomial in time). DOFs that are absent from a table by names keep theirs.
 ---@param dofs number[]|table<string, number> # [rad or m]
 ---@param options? {velocity?: number} # how fast
 function robot_dynamics:set_targets(dofs, options) end
 
----Target velocities of its motors. DOFs that a table by names leaves out keep theirs.
+---Sets the target velocities of its motors. DOFs that are absent from a table by names keep theirs.
 ---@param velocities number[]|table<string, number> # [rad/s or m/s]
 function robot_dynamics:set_target_velocities(velocities) end
 
----Has every finger closed: does its last link touch something, is it at its limit, or has it come to rest after the time in which it was to close?
+---Has every finger closed? A finger has closed if its last link touches something, if it is at its limit, or if it is at rest after the expected closing time.
 ---@return boolean
 function robot_dynamics:has_closed() end
 
@@ -1089,7 +1094,7 @@ function ui:poll() end
 ---Closes the window.
 function ui:close() end
 
----Answers a request to close the window: it stays open.
+---Rejects a request to close the window: it stays open.
 function ui:keep_open() end
 
 ---Sets the title of the window.
@@ -1179,7 +1184,7 @@ function ui_widgets:number(label, value, options) end
 ---@return boolean finished
 function ui_widgets:text_input(label, value, options) end
 
----A list of which one is chosen.
+---A list from which one entry is chosen.
 ---@param label string # text beside it
 ---@param index index? # number of the chosen one
 ---@param choices string[] # texts
@@ -1187,7 +1192,7 @@ function ui_widgets:text_input(label, value, options) end
 ---@return boolean changed
 function ui_widgets:combo(label, index, choices) end
 
----A bar of progress.
+---A progress bar.
 ---@param fraction number # part that is done
 ---@param text? string # on the bar
 ---@param width? number # all that is left by default
@@ -1281,7 +1286,7 @@ local ui_containers = {}
 ---@return boolean open # false: the user has closed it
 function ui_containers:window(name, options, draw) end
 
----A part of a window that scrolls by itself.
+---A part of a window that scrolls separately.
 ---@param id string # unique name
 ---@param options {width?: number, height?: number, border?: boolean} # size and look
 ---@param draw fun(ui: ui) # describes the contents
@@ -1319,17 +1324,17 @@ function ui_containers:open_popup(id) end
 ---Closes the popup that is being described.
 function ui_containers:close_popup() end
 
----Widgets that are gray if `disabled` is true.
+---Widgets that are disabled, and gray, if `disabled` is true.
 ---@param disabled boolean # are they?
 ---@param draw fun(ui: ui) # describes the widgets
 function ui_containers:disabled(disabled, draw) end
 
----Widgets whose labels may equal others'.
+---A scope for labels: those of its widgets may equal labels outside it.
 ---@param id string # unique name
 ---@param draw fun(ui: ui) # describes the widgets
 function ui_containers:id(id, draw) end
 
----Widgets that are laid out as one.
+---Widgets laid out as one.
 ---@param draw fun(ui: ui) # describes the widgets
 function ui_containers:group(draw) end
 
@@ -1361,7 +1366,7 @@ function ui_containers:collapsing(label, open, draw) end
 ---@param draw fun(ui: ui) # describes the cells
 function ui_containers:table(id, columns, options, draw) end
 
----Goes on to the next cell of a table.
+---Moves on to the next cell of a table.
 function ui_containers:next_column() end
 
 ---Closes robot hands on objects and judges the grasps. Lengths are meters, angles radians, masses kilograms, forces newtons; poses and vectors are in the world frame unless a text says otherwise.
@@ -1390,11 +1395,11 @@ function clench.deg(radians) end
 ---@return number # [m]
 function clench.mm(millimeters) end
 
----Seconds of a clock that runs evenly from some moment: how long something took.
+---Seconds of a monotonic clock with an arbitrary origin, to measure durations.
 ---@return number # [s]
 function clench.clock() end
 
----A vector of three finite numbers, from a list or one by one. Wherever a vec3 is expected, {x, y, z} will do.
+---A vector of three finite numbers, from a list or one by one. Wherever a vec3 is expected, {x, y, z} is accepted.
 ---@param x? number[]|number # first component, or a list of all three; without it all are 0
 ---@param y? number # second component, when they are given one by one
 ---@param z? number # third component
@@ -1413,13 +1418,13 @@ function clench.pose(options) end
 ---@return pose
 function clench.look_at(eye, target, up) end
 
----A stream of random numbers, fixed by a seed and the stream's number, the same on every machine.
+---A stream of random numbers, determined by a seed and the stream's number, and equal on every machine.
 ---@param seed integer # seed of the numbers: the same seed gives the same numbers
 ---@param item? integer # which of many streams, default 0
 ---@return random
 function clench.random(seed, item) end
 
----Kind of a file's contents, by its ending, or by its outermost element in XML; if the ending does not define it, by the layout of its numbers.
+---Kind of a file's contents, by its ending, or in XML by its root element; if the ending leaves it open, by the layout of its numbers.
 ---@param path string # file to inspect
 ---@param options? {confine?: string} # how the file is read
 ---@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"object contacts"|"pre-grasps"|"planned grasps"|"glove calibration"|"glove poses"
@@ -1429,14 +1434,14 @@ function clench.file_kind(path, options) end
 ---@return {hands: string[], arms: string[], objects: string[], obstacles: string[], worlds: string[]}
 function clench.catalog() end
 
----Converts a file to another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as .urdf, robots and worlds as scenes of MuJoCo, .xml .mjcf, or as .wld .lua, eigengrasps as .egr .xml, virtual contacts as .vgr .xml, lists of grasps as .jsonl .csv .npz .yaml, or as `format` says. Warnings name everything that the format cannot represent.
+---Converts a file to another format, by the ending of `to`: bodies as .xml .iv .obj .off .ply .stl, robots as .urdf, robots and worlds as scenes of MuJoCo, .xml .mjcf, or as .wld .lua, eigengrasps as .egr .xml, virtual contacts as .vgr .xml, lists of grasps as .jsonl .csv .npz .yaml, or in the given `format`. Warnings name everything that the format cannot represent.
 ---@param from string # file to read
 ---@param to string # file to write; its ending selects the format
 ---@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number, folder?: string, body?: string, package?: string|table, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: {point?: vec3, direction?: vec3, frame?: pose}, format?: string, dof_order?: string[]} # how the file is read and written
 ---@return "body"|"robot"|"world"|"eigengrasps"|"virtual contacts"|"grasps"|"planned grasps" # what was read
 function clench.convert(from, to, options) end
 
----The module about itself: each library and class with its functions, fields and methods, each with name, doc and `id`, the first upvalue of its function; and the files of the standard library. Documentation, completion and help are made from it.
+---The contents of the module: each library and class with its functions, fields and methods, each with name, doc and `id`, the first upvalue of its function; and the files of the standard library. Documentation, completion and help are generated from it.
 ---@return {libraries: table[], classes: table[], files: table[]}
 function clench.entries() end
 
@@ -1445,7 +1450,7 @@ function clench.entries() end
 ---@return world
 function clench.world(options) end
 
----A world from a file. Names in it are looked up next to the file, then below the root. A .lua file is run, with a table with the root and the folder of the file as its arguments, and returns a world. With `confine`, here and wherever files are read, only files below that folder are read, after resolving links, and no .lua file is run. A scene of MuJoCo is converted: every tree of joints becomes a robot, free bodies objects, fixed bodies obstacles. From the file of a robot or a body, the result is a world with only that robot or body.
+---A world from a file. Names in it are looked up next to the file, then below the root. A .lua file is run with two arguments, a table with the `root` and the folder of the file, and returns a world. With `confine`, here and wherever files are read, only files below that folder are read, after resolving links, and no .lua file is run. A scene of MuJoCo is converted: every tree of joints becomes a robot, free bodies objects, fixed bodies obstacles. For the file of a robot or a body, the result is a world with only that robot or body.
 ---@param path string # .wld, .xml, .lua or .mjcf; or any file of a robot or a body
 ---@param options? {root?: string, confine?: string, strict?: boolean, keyframe?: string, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number, folder?: string, body?: string, package?: string|table, eigengrasps?: string, virtual_contacts?: string, close?: table, approach?: {point?: vec3, direction?: vec3, frame?: pose}} # how the file is read
 ---@return world
@@ -1462,56 +1467,56 @@ function clench.grasp(hand, object, options) end
 ---@return {name: string, what: string, range: string, unit: string, higher_is_better: boolean, source: string}[]
 function clench.measures() end
 
----All wrenches that contacts resist when their normal forces sum to one (norm "L1") or are each at most one ("Linf"). A contact is a list of unit wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu, torsion_radius} in the object frame; torsion_radius, 0 for a hard finger, is that of torsional friction of a soft one [m]. Nothing is calculated before it is asked for.
+---All wrenches that contacts resist when their normal forces sum to one (norm "L1") or are each at most one ("Linf"). A contact is a list of unit wrenches {fx, fy, fz, tx, ty, tz}, torque over rho, or {point, normal, mu, torsion_radius} in the object frame; torsion_radius [m] is that of the torsional friction of a soft finger, 0 for a hard one. Nothing is calculated before it is requested.
 ---@param options {contacts: {point?: vec3, normal?: vec3, mu?: number, torsion_radius?: number}[], norm?: "L1"|"Linf", edges?: integer|"exact", rho?: number, com?: vec3, coordinates?: string[]} # the contacts, and how they are combined
 ---@return wrench_space
 function clench.wrench_space(options) end
 
----A set of eigengrasps: the principal components of `postures`, the strongest first, with their mean as the origin; or `vectors`, which are made unit. Of each principal component the largest entry is positive, and its eigenvalue is the variance along it. `count` keeps the first ones. Give it to a hand: hand.eigengrasps = set.
+---A set of eigengrasps: the principal components of `postures`, the strongest first, with their mean as the origin; or the given `vectors`, normalized. The largest entry of each principal component is positive, and its eigenvalue is the variance along it. `count` keeps the first ones. Give the set to a hand: hand.eigengrasps = set.
 ---@param options {postures?: number[][], count?: integer, vectors?: number[][], eigenvalues?: number[], origin?: number[], norm?: number[], limits?: number[][]} # postures to analyze, or the vectors themselves
 ---@return eigengrasps
 function clench.eigengrasps(options) end
 
----Draws a world: robots, objects, obstacles, friction cones where robots touch objects, and with `patches` the patches of all soft contacts, without the cones, which would cover them. The camera looks at the objects that robots touch and the links of those robots, or at everything, unless it is given completely or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display. Data of a picture are cached for the next one, which is drawn faster.
+---Draws a world: robots, objects, obstacles, and the friction cones where robots touch objects; with `patches`, the patches of all soft contacts instead of the cones, which would cover them. The camera looks at the objects that robots touch and the links of those robots, or at everything, unless it is given completely or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display. Data of a picture are cached for the next one, which is drawn faster.
 ---@param world world # world to draw
 ---@param options? {size?: integer[], quality?: "paper"|"draft", background?: "studio"|"white"|"transparent", outline?: number, letters?: number, samples?: integer, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, camera?: {eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number}, frame?: "contacts"|"all", contacts?: boolean, cones?: "apart"|"equal"|"friction"|"force", cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean|number, transparent_objects?: boolean, file_colors?: boolean, forces?: {contact: contact, force: vec3}[], force_scale?: number, arrows?: boolean} # the picture, the camera, and what is shown
 ---@return picture
 function clench.render(world, options) end
 
----The camera that clench.render chooses with the same options; of several states of a world, one for all of them, as for a film: it holds the objects that robots touch in some state, and those robots from the palm outward; if nothing is touched, everything.
+---The camera that clench.render chooses with the same options; for several states of a world, one camera for all of them, as for a film: it shows the objects that robots touch in some state, and those robots from the palm outward; if nothing is touched, everything.
 ---@param worlds world|world[] # a list: states of one world, such as clones of it
 ---@param options? {size?: integer[], quality?: "paper"|"draft", background?: "studio"|"white"|"transparent", outline?: number, letters?: number, samples?: integer, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, camera?: {eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number}, frame?: "contacts"|"all", contacts?: boolean, cones?: "apart"|"equal"|"friction"|"force", cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean|number, transparent_objects?: boolean, file_colors?: boolean, forces?: {contact: contact, force: vec3}[], force_scale?: number, arrows?: boolean} # those of clench.render
 ---@return table camera # {eye: vec3, target: vec3, up: vec3, field_of_view: number, orthographic?: number}, options of clench.render
 function clench.camera(worlds, options) end
 
----Draws numbers as columns, one panel per series, each with its own scale, all over the same items, with the value at each column if it fits; the best of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a value that is missing, and marked. Texts are UTF-8; characters that the font lacks are boxes, and a warning names them. Texts that are too long lose their middle. It needs no graphics hardware.
+---Draws numbers as columns: one panel per series, each with its own scale, all over the same items, with the value at each column if it fits. The best column of a panel, the largest unless higher_is_better is false, is the darkest. `false` is a missing value, and marked. Texts are UTF-8; characters that the font lacks are drawn as boxes, and a warning names them. Texts that are too long are shortened in the middle. No graphics hardware is needed.
 ---@param options {series: {name: string, values: (number|false)[], higher_is_better?: boolean}[], labels?: string[], title?: string, width?: integer, height?: integer} # the series and their labels
 ---@return plot # to be saved as PNG or SVG
 function clench.chart(options) end
 
----Draws numbers over numbers: lines, points, and bars between edges, as clench.stats.histogram gives them; with `categories`, numbers over names, as bars next to each other. `false` and values that are not finite are left out, and a line has a gap there. Color-blind people can distinguish the colors. It needs no graphics hardware.
+---Plots numbers over numbers: lines, points, and bars between edges, such as those of clench.stats.histogram; with `categories`, numbers over names, as bars next to each other. `false` and values that are not finite are left out, and leave a gap in a line. Color-blind people can distinguish the colors. No graphics hardware is needed.
 ---@param options {series: {name?: string, kind?: "line"|"points"|"bars", x?: (number|false)[], y?: (number|false)[], edges?: number[], counts?: number[], below?: number, above?: number}[], categories?: string[], title?: string, x_label?: string, y_label?: string, x_range?: number[], y_range?: number[], x_scale?: "linear"|"log", y_scale?: "linear"|"log", width?: integer, height?: integer} # the series and the axes
 ---@return plot
 function clench.plot(options) end
 
----Several pictures in one, in rows, each with its caption under it, and notes under all.
+---Several pictures in one, in rows, each with its caption below it, and notes at the bottom.
 ---@param options {pictures: (picture|plot)[], captions?: string[], notes?: string[], columns?: integer, gap?: integer} # the pictures and their texts
 ---@return picture
 function clench.sheet(options) end
 
----Shows how far a loop is: a bar on a terminal, with the time that is left; nothing in a pipe or a file. Over a number or a list it is the loop itself, `for i, item in clench.progress(list)`; elsewhere call `step`. It disappears at the loop's end, or by `close`.
+---Shows the progress of a loop: a bar with the remaining time on a terminal; nothing in a pipe or a file. Over a number or a list it is the loop itself, `for i, item in clench.progress(list)`; elsewhere call `step`. It disappears at the loop's end, or by `close`.
 ---@param total? integer|any[] # how many steps, or what to go through; without, only the text is shown
 ---@param text? string # what is in progress, shown before the bar
 ---@return progress
 function clench.progress(total, text) end
 
----A list of grasps: an empty one, or one from a file, in any format that `save` writes; the ending or `format` selects it, and for `.json` and `.txt` files their contents. Its grasps belong to no world: they have the file's contacts, posture and measures, and `apply` puts them into a world.
+---A list of grasps: empty, or read from a file in any format that `save` writes; the ending or `format` selects it, and for `.json` and `.txt` files the contents do. Its grasps belong to no world: they have the file's contacts, posture and measures, and `apply` puts them into a world.
 ---@param path? string # file of grasps to read; without it the list is empty
 ---@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number, format?: "jsonl"|"csv"|"npz"|"isaac_grasp"|"graspgen"|"multigripper"|"graspit", dof_order?: string|string[], hand?: robot} # how the file is read
 ---@return grasps list, string? format # of the file
 function clench.grasps(path, options) end
 
----A chain of simulated annealing, to be run step by step: the search used by `clench.plan`. It moves the world's hand.
+---A chain of simulated annealing, run step by step: the search used by `clench.plan`. It moves the world's hand.
 ---@param options {hand: robot, object: body, energy: energy|function, world?: world, position?: "axis_angle"|"complete"|"ellipsoid"|"approach"|"fixed", posture?: "eigengrasps"|"dofs"|"fixed", semi_axes?: vec3, limits?: table, jumps?: table, values?: table, targets?: table, fixed?: string[], start?: "default"|"hand", variables?: table, schedule?: string|table, seed?: integer, collisions?: boolean, max_tries?: integer, best?: table} # the hand, the object, and the variables of the search
 ---@return annealing
 function clench.annealing(options) end
@@ -1523,7 +1528,7 @@ function clench.annealing(options) end
 ---@return integer[] taken # fewer than asked where no legal neighbor was found
 function clench.run_annealings(searches, steps, threads) end
 
----Runs a function concurrently with the script: in a thread, in a separate Lua state, on copies of its arguments. As many jobs run at once as there are cores, at least two; others are queued. A job without a handle continues; the end of the program stops it.
+---Runs a function concurrently with the script: in a thread, in a separate Lua state, on copies of its arguments. As many jobs run at once as there are cores, but at least two; others are queued. A job without a handle continues; the end of the program stops it.
 ---@param task function|string # which uses nothing of the lines around it; or the name of a module that returns such a function
 ---@param options? {args?: any[], shared?: any, name?: string} # what it is given
 ---@return job
@@ -1554,7 +1559,7 @@ function clench.json.decode(text) end
 ---@class clench.log
 clench.log = {}
 
----Calls a function, and returns the messages logged meanwhile as values. Notes, warnings and errors are collected at every level; nothing is printed, and no sink is called.
+---Calls a function, and returns the messages logged during the call as values. Notes, warnings and errors are collected at every level; nothing is printed, and no sink is called.
 ---@param f function # function to call
 ---@param ... any # its arguments
 ---@return {severity: "note"|"warning"|"error", text: string, file?: string, line?: integer, subject?: string, about?: string, count: integer}[] diagnostics # file and line: the place in a file that is read or written; subject: the part of it that is concerned, "joint 2"; about: "inferred", "ignored", "repaired" or "suspicious"; equal problems of one file are one, the first, with their count
@@ -1577,7 +1582,7 @@ function clench.log.warning(...) end
 ---@param ... any # values of the message, as print takes them
 function clench.log.error(...) end
 
----Says from which level on messages are shown, and sets it if one is given.
+---Sets the level from which on messages are shown, if one is given; returns the previous one.
 ---@param name? "debug"|"info"|"warning"|"error"|"quiet" # least severe level that is printed; without it the level stays
 ---@return string before
 function clench.log.level(name) end
@@ -1596,24 +1601,24 @@ clench.files = {}
 ---@return eigengrasps
 function clench.files.eigengrasps(path, options) end
 
----Virtual contacts from .vgr or .xml. Give them to a hand: hand.virtual_contacts = list. `chain` and `link` count from 1, chain 0 is the base; `frame` is in the link's, +z out of it; `robot` of the list is the hand they were made for.
+---Virtual contacts from .vgr or .xml. Give them to a hand: hand.virtual_contacts = list. `chain` and `link` count from 1; chain 0 is the base. `frame` is in the link frame, +z out of the link; `robot` of the list is the hand for which they were made.
 ---@param path string # file to read
 ---@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # how the file is read
 ---@return {chain: integer, link: index, frame: pose, mu: number, edges: number[][]}[]
 function clench.files.virtual_contacts(path, options) end
 
----Contacts on an object, as GraspIt! stores them. `placed` is false, and the frame at the origin, if the file leaves the points out.
+---Contacts on an object, as GraspIt! stores them. `placed` is false, and the frame at the origin, if the file omits the points.
 ---@param path string # file to read
 ---@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # how the file is read
 ---@return {frame: pose, placed: boolean, normal: vec3, mu: number, edges: number[][]}[]
 function clench.files.object_contacts(path, options) end
 
----Writes contacts on an object; without `edges` those of a point.
+---Writes contacts on an object; without `edges`, those of a point contact.
 ---@param path string # file to write
 ---@param list {frame: pose, placed?: boolean, normal: vec3, mu?: number, edges?: number[][]}[] # contacts in the object's frame
 function clench.files.save_object_contacts(path, list) end
 
----Boxes, spheres, cylinders and cones in an Inventor or VRML file, in its frame. Of an object's file those in primitives/<its name>.iv next to it are read instead, if that exists. y is the axis of cylinder and cone.
+---Boxes, spheres, cylinders and cones of an Inventor or VRML file, in its frame. For an object's file, those of primitives/<its name>.iv next to it are read instead, if that file exists. y is the axis of cylinder and cone.
 ---@param path string # file to read
 ---@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # how the file is read
 ---@return {kind: "box"|"sphere"|"cylinder"|"cone", pose: pose, size?: vec3, radius?: number, height?: number}[] # [m]
@@ -1625,17 +1630,17 @@ function clench.files.primitives(path, options) end
 ---@return {point: vec3, direction: vec3, thumb: vec3, spread: number}[] # [m, rad]
 function clench.files.pregrasps(path, options) end
 
----Writes a text as a file, completely or not at all: if it fails, an existing file is unchanged.
+---Writes a text to a file, completely or not at all: on failure an existing file is unchanged.
 ---@param path string # file to write
 ---@param text string # contents of the file
 function clench.files.save_text(path, text) end
 
----Appends a text on a separate line, whose end is added, in one system call: a process that is killed leaves all of it or nothing, and on a full disk no part remains. Creates the file if necessary.
+---Appends a text as a separate line, and the end of that line, in one system call: a process that is killed leaves all of it or nothing, and a full disk leaves no part of it. Creates the file if necessary.
 ---@param path string # file to append to
 ---@param text string # text to append
 function clench.files.append_text(path, text) end
 
----Checks that a file could be written there, before long work for instance: its folder exists, both may be written, and it is no folder, pipe or device. Changes no file.
+---Checks that a file can be written there, for instance before long work: its folder exists, both are writable, and it is no folder, pipe or device. Changes no file.
 ---@param path string # file that is to be written
 function clench.files.check_writable(path) end
 
@@ -1645,14 +1650,14 @@ function clench.files.check_writable(path) end
 ---@return string
 function clench.files.read_text(path, options) end
 
----Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of what is in them.
+---Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of their values.
 ---@param name string # for errors
 ---@param text string # contents of a CSV file
 ---@param separator? string # "," by default, ";" or a tab
 ---@return table[] records # lists of cells, each with its `line`, and `quoted`: of which cells stood in quotes
 function clench.files.csv_records(name, text, separator) end
 
----A text as a cell of comma-separated values: in quotes if it would otherwise be read differently, or as a number, true or false.
+---A text as a cell of comma-separated values: quoted if it would otherwise be read differently, or as a number, true or false.
 ---@param text string # text of the cell
 ---@param separator? string # "," by default, ";" or a tab
 ---@return string
@@ -1669,25 +1674,25 @@ function clench.files.save_pregrasps(path, list) end
 ---@return {slopes: number[][], intercepts: number[]} # [rad per count, rad]
 function clench.files.glove_calibration(path, options) end
 
----Postures that a glove was calibrated from: raw `sensors`, the `dof_of_sensor` (0: not used), `joints` [rad], the `distance` of fingertips that were meant to touch [m], and the hand's `pose`.
+---Postures from which a glove was calibrated: raw `sensors`, the `dof_of_sensor` (0: not used), `joints` [rad], the `distance` of fingertips that were meant to touch [m], and the hand's `pose`.
 ---@param path string # file to read
 ---@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # how the file is read
 ---@return {distance?: number, sensors?: integer[], dof_of_sensor?: integer[], joints?: number[], pose: pose}[]
 function clench.files.glove_poses(path, options) end
 
----Writes lists of numbers, or of rows of numbers, as NumPy's arrays: `numpy.load` gives them by their names.
+---Writes lists of numbers, or of rows of numbers, as NumPy arrays, which `numpy.load` returns by their names.
 ---@param path string # .npz
 ---@param arrays table<string, number[]|number[][]> # arrays by name, of one or two dimensions
 ---@param options? {compress?: boolean} # how it is written
 function clench.files.save_arrays(path, arrays, options) end
 
----The arrays of such a file: lists of numbers or texts, or of rows, all indices but the first in one.
+---The arrays of such a file: lists of numbers or texts, or lists of rows. All indices but the first are combined into one.
 ---@param path string # .npz
 ---@param options? {root?: string, confine?: string, strict?: boolean, unit?: "mm"|"cm"|"m"|"inch"|"foot", mesh_scale?: number} # how the file is read
 ---@return table<string, number[]|number[][]|string[]>
 function clench.files.arrays(path, options) end
 
----Writes pictures of one size as an animated GIF of up to 256 colors that plays again and again.
+---Writes pictures of one size as an animated GIF of up to 256 colors, which repeats forever.
 ---@param path string # file to write
 ---@param pictures picture[] # frames in order, all of one size
 ---@param options? {rate?: number, delays?: number[]} # how long each picture is shown
@@ -1702,7 +1707,7 @@ clench.energy = {}
 ---@return energy
 function clench.energy.contact(options) end
 
----Grasp quality of the virtual contacts if they touched, with more weight on nearer ones: minus epsilon of their forces (with `torques`, of their wrenches). 1 if fewer than min_count are near and face the object, or if they do not resist all directions.
+---Grasp quality of the virtual contacts as if they touched, with larger weights for nearer ones: minus epsilon of their forces (with `torques`, of their wrenches). 1 if fewer than min_count are near and face the object, or if they do not resist all directions.
 ---@param options {hand: robot, object: body, contacts?: "preset"|"live", reach?: number, min_count?: integer, torques?: boolean} # the hand, the object and how they are rated
 ---@return energy
 function clench.energy.potential_quality(options) end
@@ -1712,17 +1717,17 @@ function clench.energy.potential_quality(options) end
 ---@return energy
 function clench.energy.guided_potential_quality(options) end
 
----Closes the hand, and opens it again: minus (volume_weight * volume + epsilon_weight * epsilon) of the grasp; with `tasks`, also minus task_weight times the largest multiple of all these wrenches on the object that it resists.
+---Closes the hand, and opens it again: minus (volume_weight * volume + epsilon_weight * epsilon) of the grasp; with `tasks`, also minus task_weight times the largest multiple of all these wrenches that the grasp resists.
 ---@param options {hand: robot, object: body, volume_weight?: number, epsilon_weight?: number, tasks?: number[][], task_weight?: number, edges?: integer|"exact"} # the hand, the object and how they are rated
 ---@return energy
 function clench.energy.autograsp_quality(options) end
 
----contact and, if two virtual contacts are near the object and face it, minus volume_weight times the volume of the closed grasp. The default reproduces the numbers of GraspIt!, which has the wrong sign of the angle; `facing = "nearest"` is the correct one.
+---contact and, if two virtual contacts are near the object and face it, minus volume_weight times the volume of the closed grasp. The default reproduces the numbers of GraspIt!, in which the angle has the wrong sign; `facing = "nearest"` is the correct one.
 ---@param options {hand: robot, object: body, contacts?: "preset"|"live", facing?: "nearest"|"surface"|"away", volume_weight?: number, near?: number, min_contacts?: integer} # the hand, the object and how they are rated
 ---@return energy
 function clench.energy.guided_autograsp_quality(options) end
 
----autograsp_quality after an approach of 30 mm that ends at a touch; if the base touches nothing then, the hand stays at its start. 1e8 if the grasp has no quality.
+---autograsp_quality after an approach of 30 mm that ends at the first contact; if the base then touches nothing, the hand stays at its start. 1e8 if the grasp has no quality.
 ---@param options {hand: robot, object: body, volume_weight?: number, epsilon_weight?: number, tasks?: number[][], task_weight?: number, edges?: integer|"exact"} # the hand, the object and how they are rated
 ---@return energy
 function clench.energy.strict_autograsp(options) end
@@ -1732,7 +1737,7 @@ function clench.energy.strict_autograsp(options) end
 ---@return energy
 function clench.energy.compliant(options) end
 
----Result of shaking the closed hand in simulation: minus the sum over six directions of the fraction of the time that the object was held in study.shake, down to -6; if the closed hand is not in force closure, or loses the object before, 1 + contact, which guides the search. It runs on one thread, and takes some tenths of a second if the hand holds something.
+---Result of shaking the closed hand in simulation: minus the sum over six directions of the fraction of the time that the object was held in study.shake, down to -6; if the closed hand is not in force closure, or loses the object before the shaking, 1 + contact, which guides the search. It runs on one thread, and takes some tenths of a second if the hand holds something.
 ---@param options {hand: robot, object: body, shake?: table, contacts?: "preset"|"live"} # the hand and the object
 ---@return energy
 function clench.energy.dynamic(options) end
@@ -1757,17 +1762,17 @@ function clench.energy.clearance(options) end
 ---@return energy
 function clench.energy.reach(options) end
 
----Penetration depth of the hand in colliding bodies, by points on its bodies, summed over the pairs of bodies [mm]; 0 only where nothing collides. If no point lies inside, the depth given by `world:penetration` is used. A search with this term and `collisions = false` may cross states that collide.
+---Penetration depth of the hand in colliding bodies, measured at points on its bodies, summed over the pairs of bodies [mm]; 0 only if nothing collides. If no point lies inside, the depth given by `world:penetration` is used. A search with this term and `collisions = false` may cross states that collide.
 ---@param options {hand: robot, points?: integer} # the hand and the points
 ---@return energy
 function clench.energy.penetration(options) end
 
 ---Work in many threads.
 ---@class clench.parallel
----@field cores integer # Threads that this machine runs at once.
+---@field cores integer # Number of threads that this machine runs at once.
 clench.parallel = {}
 
----Calls a function for each item of a list, in many threads, each with a separate Lua state and separate worlds. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are as they were given, and math.random begins anew. All states together are limited to the memory of the calling one.
+---Calls a function for each item of a list, in several threads, each with a separate Lua state and separate worlds. Results come in the order of the items and do not depend on the number of threads: for each item the shared worlds are in their original state, and math.random is seeded anew. All states together are limited to the memory of the calling one.
 ---@param task function|string # (item, shared, number), which uses nothing of the lines around it; or the name of a module that returns such a function
 ---@param items table # a list of plain data, worlds, bodies, robots, snapshots, meshes, poses, vectors, random numbers and grasps; each is handed over as a copy, grasps in no world
 ---@param options? {threads?: integer, shared?: any, each?: function} # threads and shared values
@@ -1775,7 +1780,7 @@ clench.parallel = {}
 ---@return integer failed
 function clench.parallel.map(task, items, options) end
 
----Niceness of the threads that `map` and `clench.job` start from now on: with an open window, 10 gives it priority.
+---Niceness of the threads that `map` and `clench.job` start from now on; 10 gives an open window priority over them.
 ---@param level? integer # from 0, as the script itself, to 19; without it the level stays
 ---@return integer level
 function clench.parallel.nice(level) end
