@@ -44,7 +44,7 @@ void end_children(int thread) {
 
 void set_thread_nice(int level) {
   const auto thread = static_cast<id_t>(thread_number());
-  if (getpriority(PRIO_PROCESS, thread) < level) setpriority(PRIO_PROCESS, thread, level);
+  if (level > 0 && getpriority(PRIO_PROCESS, thread) < level) setpriority(PRIO_PROCESS, thread, level);
 }
 
 }  // namespace clench
