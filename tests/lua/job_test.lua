@@ -242,6 +242,23 @@ test("a stopped job that catches the stop of the engine cannot let it work again
   t.ok(clench.clock() - began < 10)
 end)
 
+test("a program is read while a job reads another one", function(t)
+  local mark = test.path()
+  local job = clench.job(function(name) return assert(io.popen(("echo on > '%s'; sleep 60"):format(name))):read "a" end, {args = {mark}})
+  local last = clench.clock() + 30
+  repeat
+    clench.loop.sleep(0.05)  -- the job is reading soon after its program has begun
+    local file <close> = io.open(mark)
+  until file or clench.clock() > last
+  clench.loop.sleep(0.2)
+  local began = clench.clock()
+  t.equal(assert(io.popen "echo yes"):read "a", "yes\n")
+  t.ok(clench.clock() - began < 20)
+  t.fails(function() io.popen("true", "x") end, "bad argument #2 to 'popen' (invalid mode)")
+  job:stop()
+  t.ok(job:wait(30))
+end)
+
 test("stopping a job ends the programs that it waits for", function(t)
   local function is_alive(mark)
     local file <close> = assert(io.popen "ps -ww -eo args")

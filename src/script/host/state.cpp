@@ -14,6 +14,7 @@
 #include "clench/script/bind/log.h"
 #include "clench/script/host/modules.h"
 #include "clench/script/host/open.h"
+#include "clench/script/host/popen.h"
 #include "clench/script/lua/chunks.h"
 #include "clench/script/lua/deadline.h"
 #include "clench/script/lua/guard.h"
@@ -73,6 +74,7 @@ static int open_all(lua_State* L) {
   lua_pushboolean(L, 1);
   lua_setfield(L, LUA_REGISTRYINDEX, "LUA_NOENV");
   luaL_openlibs(L);
+  replace_popen(L);
   refuse_bytecode(L);
   add_user_modules(L);
   luaL_requiref(L, "clench", clench_open, 1);
