@@ -105,6 +105,28 @@ test("one request reads at most 1000 fields", function(t)
   t.equal(code(client.call("read", {items = empty})), -32002)
 end)
 
+test("many subscriptions of different rates leave time for requests", function(t)
+  local server <close> = serve()
+  local other = connect(server)
+  local function cost()
+    local began = os.clock()
+    for _ = 1, 20 do
+      other.get "world.hash"
+      loop.sleep(0.005)
+    end
+    return (os.clock() - began) / 20
+  end
+  local clients = {}
+  for c = 1, 4 do
+    clients[c] = connect(server)
+    for i = 1, 32 do clients[c].get("subscribe_state", {rate = 1000 - c - 0.1 * i, poses = true, contacts = true}) end
+  end
+  local groups = 0
+  for _ in pairs(server.snapshot_groups) do groups = groups + 1 end
+  t.equal(groups, 1)
+  t.ok(cost() < 0.02, cost())
+end)
+
 test("requests with very many values are refused at once", function(t)
   local server <close> = serve()
   local client = connect(server)
