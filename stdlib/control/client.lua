@@ -77,6 +77,21 @@ end
 --- Sends a reply.
 function Client:send(text) self:send_raw(self.wrap and self.wrap(text) or text) end
 
+local probe_period = 0.05  -- [s]
+
+--- Has the client gone? One that only sends no more still receives: a space before its answer, which JSON permits, finds that out.
+function Client:has_gone()
+  if not self.has_ended or self.is_closed then return self.is_closed == true end
+  if self.wrap then
+    self:close "closed by the client"
+  elseif loop.time() >= (self.next_probe or 0) then
+    self.next_probe = loop.time() + probe_period
+    self:send_raw " "
+    self:flush()
+  end
+  return self.is_closed == true
+end
+
 --- Closes the connection at once.
 ---@param reason? string  for the server's log
 function Client:close(reason)

@@ -1,5 +1,6 @@
 local class = require "clench.class"
 local device = require "clench.devices.device"
+local is_stopped = require "clench.is_stopped"
 local new_options = require "clench.options"
 local raise = require "clench.raise"
 
@@ -12,6 +13,7 @@ local names = {"spread", "finger 1", "finger 2", "finger 3"}
 local max_counts = {3150, 17800, 17800, 17800}
 local max_angles = {math.pi, 2.51327, 2.51327, 2.51327}  -- [rad]
 local all = "123S"               -- the order in which the hand reports values
+local max_closing_time = 3       -- [s]
 local order_of_all = {4, 1, 2, 3}  -- position of each DOF in that order
 
 function Barrett:__tostring() return "Barrett hand at " .. self.port.name end
@@ -144,14 +146,35 @@ function Barrett:breakaways()
   return out
 end
 
---- Stops the motors and closes the port.
+-- Switches the motors off, again until the hand confirms it or the time is over; false: it has not confirmed it.
+local function stop_surely(self)
+  local last = clench.clock() + math.min(self.attempts * self.timeout, max_closing_time)
+  for _ = 1, self.attempts do
+    local left = last - clench.clock()
+    if left <= 0 then return false end
+    local reply, why = exchange(self, "T", math.min(self.timeout, left))
+    if reply and not reply:find "ERR" then return true end
+    if why == "closed" or why == "unplugged" then return false end
+  end
+  return false
+end
+
+--- Switches the motors off and closes the port. A stop that the hand does not confirm is repeated for at most three seconds.
+---@return boolean stopped  false: the hand has not confirmed it
 function Barrett:close()
-  device.send_last(self.port, "T\r")
+  if self.is_closed then return true end
+  self.is_closed = true
+  local ok, stopped = pcall(stop_surely, self)
+  if not ok then device.send_last(self.port, "T\r") end  -- nothing can be waited for
   if self.owns_port then self.port:close() end
+  if is_stopped(stopped) then error(stopped, 0) end
+  stopped = ok and stopped
+  if not stopped then clench.log.warning(("%s: the hand at %s has not confirmed that its motors are off"):format(subject, self.port.name)) end
+  return stopped
 end
 
 Barrett.__close = function(self) self:close() end
-Barrett.__gc = function(self) device.send_last(self.port, "T\r") end
+Barrett.__gc = function(self) if not self.is_closed then device.send_last(self.port, "T\r") end end
 
 --- Driver of a Barrett hand BH8-262. Angles are checked before they are sent. When the program ends, the motors are switched off; but if it is
 --- killed, the hand stays as it is, because it has no watchdog.

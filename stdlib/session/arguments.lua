@@ -113,6 +113,8 @@ function arguments.read(command, given)
   return out
 end
 
+local max_address = 1000  -- [bytes]
+
 -- the parts of an address: {"dlr", "chain0_link2"} of "dlr/chain0_link2"
 local function parts_of(address)
   if not address:find "[/\\]" then return {address} end
@@ -139,6 +141,7 @@ end
 function arguments.find(session, address)
   local world = session.world or raise "session: no world is open"
   if type(address) ~= "string" then return of_world(world, address) end
+  if #address > max_address then raise(("session: an address has at most %d bytes, got %d"):format(max_address, #address)) end
   local parts = parts_of(address)
   for _, robot in ipairs(world.robots) do
     if robot.name == parts[1] then

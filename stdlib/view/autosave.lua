@@ -12,13 +12,20 @@ local mark = "-- autosave "
 -- number and start time of a process: the number alone may be reused by another process
 local function process(id)
   local text = user_files.read(("/proc/%s/stat"):format(id))
-  if not text then return nil end
+  local rest = text and text:match "%)(.*)$"
+  if not rest then return nil end
   local words = {}
-  for word in text:match "%)(.*)$":gmatch "%S+" do words[#words + 1] = word end
+  for word in rest:gmatch "%S+" do words[#words + 1] = word end
   return {id = text:match "^%d+", start = words[20]}
 end
 
 local function name_of(folder, i) return ("%s/autosave-%d.lua"):format(folder, i) end
+
+-- Is it the first line of a file that a viewer has written?
+local function is_head(said)
+  if type(said) ~= "table" or type(said.id) ~= "string" or not said.id:find "^%d+$" or type(said.time) ~= "string" then return false end
+  return (said.path == nil or type(said.path) == "string") and (said.folder == nil or type(said.folder) == "string")
+end
 
 --- Scripts of processes that no longer exist.
 ---@param folder string
@@ -30,7 +37,7 @@ function autosave.left(folder)
     local text = user_files.read(file)
     local head, lines = (text or ""):match("^" .. mark:gsub("%-", "%%-") .. "([^\n]*)\n[^\n]*\n[^\n]*\n(.*)$")
     local ok, said = pcall(clench.json.decode, head or "")
-    if ok and type(said) == "table" then
+    if ok and is_head(said) then
       local owner = process(said.id)
       if not owner or owner.start ~= said.start then
         list[#list + 1] = {file = file, path = said.path, folder = said.folder, time = said.time, lines = lines}
@@ -73,7 +80,7 @@ function autosave.keep(view, folder)
   view.subscriptions[#view.subscriptions + 1] = session:subscribe("changed", function() changed = true end)
   local function free_name()
     for i = 1, max_files do
-      if not user_files.read(name_of(folder, i)) then return name_of(folder, i) end
+      if user_files.is_free(name_of(folder, i)) then return name_of(folder, i) end
     end
     error(("autosave: %s is full; delete what is not needed"):format(folder), 0)
   end

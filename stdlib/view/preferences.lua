@@ -84,7 +84,7 @@ local function apply(view, said)
   if units.length == "m" or units.length == "mm" then view.units.length = units.length end
   if units.angle == "rad" or units.angle == "deg" then view.units.angle = units.angle end
   for _, name in ipairs(texts_of(said.hidden)) do view.hidden[name] = true end
-  view.recent = texts_of(said.recent)
+  view.recent = table.move(texts_of(said.recent), 1, max_recent, 1, {})
   apply_arrangement(view, said)
 end
 

@@ -27,10 +27,19 @@ function user_files.save(path, text)
   clench.files.save_text(path, text)
 end
 
---- The text of a file; nil if there is none.
+local max_size = 1 << 26  -- [bytes]
+
+--- The text of a file; nil if there is none, or none that can be read, or more than 64 MiB.
 function user_files.read(path)
   local file <close> = io.open(path, "rb")
-  return file and file:read "a"
+  local text = file and (file:read(max_size + 1) or file:read "a")
+  return text and #text <= max_size and text or nil
+end
+
+--- Is there nothing under this name, neither a file nor a folder?
+function user_files.is_free(path)
+  local file <close>, _, code = io.open(path, "rb")
+  return not file and (code == 2 or code == 20)  -- ENOENT, ENOTDIR: its folder is none
 end
 
 --- The absolute path, so that it can be opened from any folder.

@@ -39,6 +39,52 @@ test("others are served between the requests of a batch, and its client's next r
   t.ok(other.get "world.hash")
 end)
 
+test("a batch ends when its client has gone, and not when it only sends no more", function(t)
+  local server <close>, world = serve()
+  local done = 0
+  server.session:command {name = "test.slow", label = "Slow", reads = true, run = function()
+    done = done + 1
+    local last = clench.clock() + 0.003
+    while clench.clock() < last do end
+    return done
+  end}
+  local batch = {}
+  for i = 1, 1000 do batch[i] = {jsonrpc = "2.0", id = i, method = "test.slow"} end
+  local client, other = connect(server), connect(server)
+  client.port:write(json.encode(batch) .. "\n")
+  while done == 0 do loop.sleep(0) end
+  client.port:close()
+  local last = loop.time() + 20
+  while #server.clients > 1 and loop.time() < last do other.get "world.hash" end
+  local before = done
+  loop.sleep(0.1)
+  t.ok(done == before and done < 500, ("%d of 1000 requests were served"):format(done))
+  -- the tool ends its side of the connection, and prints what it receives
+  local few = test.path(".json")
+  local file <close> = io.open(few, "w")
+  file:write('{"jsonrpc":"2.0","id":"h","method":"hello","params":{"token":"', server.token, '"}}\n', json.encode(table.move(batch, 1, 100, 1, {})), "\n")
+  file:close()
+  local half = clench.job(function(port, path)
+    local python = [[
+import socket, sys
+s = socket.create_connection(("127.0.0.1", int(sys.argv[1])))
+s.sendall(open(sys.argv[2], "rb").read())
+s.shutdown(socket.SHUT_WR)
+out = b""
+while True:
+    part = s.recv(65536)
+    if not part: break
+    out += part
+sys.stdout.buffer.write(out)
+]]
+    return io.popen(("python3 -c '%s' %d '%s'"):format(python, port, path)):read "a"
+  end, {args = {server.port, few}})
+  t.ok(loop.wait(half, 30))
+  local lines = {}
+  for line in half:result():gmatch "[^\n]+" do lines[#lines + 1] = json.decode(line) end
+  t.equal({lines[1].id, #lines[2], lines[2][100].id}, {"h", 100, 100})
+end)
+
 test("one request reads at most 1000 fields", function(t)
   local server <close> = serve()
   local client = connect(server)
@@ -57,6 +103,57 @@ test("one request reads at most 1000 fields", function(t)
   local empty = {}
   for i = 1, 1001 do empty[i] = {fields = {}} end
   t.equal(code(client.call("read", {items = empty})), -32002)
+end)
+
+test("many subscriptions of different rates leave time for requests", function(t)
+  local server <close> = serve()
+  local other = connect(server)
+  local function cost()
+    local began = os.clock()
+    for _ = 1, 20 do
+      other.get "world.hash"
+      loop.sleep(0.005)
+    end
+    return (os.clock() - began) / 20
+  end
+  local clients = {}
+  for c = 1, 4 do
+    clients[c] = connect(server)
+    for i = 1, 32 do clients[c].get("subscribe_state", {rate = 1000 - c - 0.1 * i, poses = true, contacts = true}) end
+  end
+  local groups = 0
+  for _ in pairs(server.snapshot_groups) do groups = groups + 1 end
+  t.equal(groups, 1)
+  t.ok(cost() < 0.02, cost())
+end)
+
+test("requests with very many values are refused at once", function(t)
+  local server <close> = serve()
+  local client = connect(server)
+  local function refused(method, params, code, words)
+    local began = os.clock()
+    local response = client.call(method, params)
+    t.ok(os.clock() - began < 0.5, method)
+    t.equal(response.error.code, code)
+    t.ok(response.error.message:find(words, 1, true), response.error.message)
+  end
+  local function many(value, count)
+    local list = {}
+    for i = 1, count do list[i] = value end
+    return list
+  end
+  refused("grasp.dofs", {dofs = many(1, 400000)}, -32002, "at most 50000 values")
+  refused("step", {targets = {barrett = many(1, 400000)}}, -32002, "at most 50000 values")
+  refused("world.average_contacts", {links = many("mug", 1001)}, -32002, "links: expected at most 1000 addresses, got 1001")
+  refused("body.move", {body = ("/"):rep(900000), pose = {}}, -32000, "an address has at most 1000 bytes, got 900000")
+end)
+
+test("requests whose id is null are found between other requests", function(t)
+  local null_ids = require "clench.control.rpc.null_ids"
+  for _, case in ipairs {{'{"id":null}', {true}}, {' {"a":{"id":null},"b":[{"id" : null}]} ', {}}, {'{"a":"\\"id\\":null","id" : null}', {true}}, {'{"a":"\\"id\\":null"}', {}},
+                         {'[{"id":1},{"a":[1,{"id":null}],"id":null},[{"id":null}],"}{",{"a":",\\\\","id":null}]', {[2] = true, [5] = true}}} do
+    t.equal(null_ids(case[1]), case[2], case[1])
+  end
 end)
 
 test("clients with the same rate share snapshots, and each has its own until it ends it", function(t)

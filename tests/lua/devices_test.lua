@@ -183,6 +183,32 @@ test("Barrett: faults of the hand are reported with their numbers", function(t)
   t.fails(function() hand:increment(0) end, "counts: expected a whole number other than 0")
 end)
 
+test("Barrett: a stop that the hand does not confirm is repeated, for a bounded time", function(t)
+  local line <close> = clench.port.pty()
+  local received = 0
+  local deaf, why = 3, nil  -- the first stops are lost
+  loop.spawn(function()
+    while true do
+      local bytes = line:read_some()
+      if not bytes then return end
+      for _ in bytes:gmatch "T\r" do
+        received = received + 1
+        if received > deaf then line:send "T\r\n=> " end
+      end
+    end
+  end)
+  t.equal(devices.barrett {port = line.path, timeout = 0.05}:close(), true)
+  t.equal(received, 4)
+  deaf, received = math.huge, 0
+  local began = clench.clock()
+  local problems
+  problems, why = clench.log.collect(function() return devices.barrett {port = line.path, timeout = 0.05, attempts = 5}:close() end)
+  t.equal({why, received}, {false, 5})
+  t.ok(problems[1].text:find("has not confirmed that its motors are off", 1, true), problems[1].text)
+  t.equal(devices.barrett {port = line.path, timeout = 1, attempts = 1000}:close(), false)
+  t.ok(clench.clock() - began < 20)
+end)
+
 test("Dynamixel: packets are those of the protocol's description", function(t)
   local device <close> = simulated.dynamixel {ids = {1, 2}}
   local bus <close> = devices.dynamixel {port = device.path, ids = {1, 2}}

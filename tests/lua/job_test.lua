@@ -1,5 +1,5 @@
 -- Functions that run in parallel to the script: their states, results, events and ends.
-local test, clench = require "test", require "clench"
+local test, clench, show = require "test", require "clench", require "clench.show"
 
 local function scene()
   local world = clench.load("worlds/barrett_mug.wld", {root = "."})
@@ -223,17 +223,65 @@ test("a program ends whatever its jobs do", function(t)
   end
 end)
 
+test("a stopped job that catches the stop of the engine cannot let it work again", function(t)
+  local job = clench.job(function()
+    local clench = require "clench"
+    clench.this_job:event "begins"
+    while true do
+      -- each call lasts many seconds
+      local ok, problem = pcall(clench.render, clench.world(), {size = {4000, 4000}, samples = 60})
+      if not ok and problem.kind ~= "stopped" then error(problem, 0) end
+    end
+  end)
+  while #job:events() == 0 do clench.loop.sleep(0.01) end
+  clench.loop.sleep(0.2)
+  job:stop()
+  local began = clench.clock()
+  t.ok(job:wait(60))
+  t.equal(job.state, "stopped")
+  t.ok(clench.clock() - began < 10)
+end)
+
+test("a program is read while a job reads another one", function(t)
+  local mark = test.path()
+  local job = clench.job(function(name) return assert(io.popen(("echo on > '%s'; sleep 60"):format(name))):read "a" end, {args = {mark}})
+  local last = clench.clock() + 30
+  repeat
+    clench.loop.sleep(0.05)  -- the job is reading soon after its program has begun
+    local file <close> = io.open(mark)
+  until file or clench.clock() > last
+  clench.loop.sleep(0.2)
+  local began = clench.clock()
+  t.equal(assert(io.popen "echo yes"):read "a", "yes\n")
+  t.ok(clench.clock() - began < 20)
+  t.fails(function() io.popen("true", "x") end, "bad argument #2 to 'popen' (invalid mode)")
+  job:stop()
+  t.ok(job:wait(30))
+end)
+
 test("stopping a job ends the programs that it waits for", function(t)
   local function is_alive(mark)
-    for line in io.popen "ps -eo args" :lines() do
-      if line:find(mark, 1, true) and not line:find "ps -eo" then return true end
+    local file <close> = assert(io.popen "ps -ww -eo args")
+    local lines = 0
+    for line in file:lines() do
+      lines = lines + 1
+      if line:find(mark, 1, true) and not line:find "ps -ww" then return true end
     end
+    t.ok(lines > 1, "ps shows no processes")
     return false
   end
   local mark = ("sleep 60.0%d"):format(os.time() % 100000)
-  local waits = clench.job(function(command) os.execute(command) end, {args = {mark .. "; true"}})
-  local reads = clench.job(function(command) return io.popen(command):read "a" end, {args = {mark .. "; true"}})
-  while not is_alive(mark) do clench.loop.sleep(0.01) end
+  local waits = clench.job(function(command) return os.execute(command) end, {args = {mark .. "; true"}})
+  local reads = clench.job(function(command) return assert(io.popen(command)):read "a" end, {args = {mark .. "; true"}})
+  local function told(job)
+    if job.state == "running" or job.state == "queued" then return job.state end
+    return job.state .. ": " .. show(table.pack(pcall(job.result, job)), 300)
+  end
+  local last = clench.clock() + 30
+  while not is_alive(mark) do
+    t.ok(clench.clock() < last, ("no program was seen; %s; %s"):format(told(waits), told(reads)))
+    clench.loop.sleep(0.01)
+  end
   local began = clench.clock()
   waits:stop()
   reads:stop()

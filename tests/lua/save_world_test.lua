@@ -327,6 +327,11 @@ test("an .xml is a scene of MuJoCo, or a world of GraspIt! on request or if a ro
   local told = table.concat(t.warnings(function() carried:save(folder .. "/carried.xml") end), "\n")
   t.ok(told:find("carried.xml: a robot carries another one", 1, true), told)
   t.equal(#clench.load(folder .. "/carried.xml").robots, 2)
+  local middle, jaw = clench.world(), nil
+  arm, jaw = middle:add_robot "models/arms/puma560/puma560.cfg", middle:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg"
+  jaw:mount_on(arm, {link = arm.chains[1].links[1].name})
+  local ok, problem = pcall(middle.save, middle, folder .. "/middle.wld")
+  t.ok(not ok and tostring(problem):find(("the world: '%s' is carried by"):format(jaw.name), 1, true), problem)
   carried:save(folder .. "/carried.xml", {format = "mjcf"})
   t.equal(#clench.load(folder .. "/carried.xml").robots, 1)
 end)

@@ -181,6 +181,25 @@ test("a full disk is reported once in the console", function(t)
   os.remove(path)
 end)
 
+test("unsaved work is stored beside folders and damaged files that have its names", function(t)
+  local folder = new_folder()
+  os.execute(("mkdir -p '%s/autosave-1.lua'"):format(folder))
+  local heads = {'{"id":"","start":"1","time":"x"}', '{"id":5,"start":"1","time":"x"}', '{"id":"999999999","start":"1","time":"x","path":[]}', '[1]', '5', '{'}
+  for i, head in ipairs(heads) do
+    clench.files.save_text(("%s/autosave-%d.lua"):format(folder, i + 1), "-- autosave " .. head .. "\n\n\nlines\n")
+  end
+  t.equal(#autosave.left(folder), 0)
+  local session, view, path = open()
+  local kept = autosave.keep(view, folder)
+  move(session)
+  kept.flush()
+  t.ok(text_at(("%s/autosave-%d.lua"):format(folder, #heads + 2)))
+  for _, line in ipairs(view.lines) do t.ok(not line.text:find("autosave", 1, true), line.text) end
+  view:close()
+  os.remove(path)
+  os.execute(("rm -r '%s'"):format(folder))
+end)
+
 test("settings and recent files are kept", function(t)
   local session, view, path = open()
   local folder = new_folder()

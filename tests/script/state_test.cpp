@@ -202,6 +202,36 @@ TEST_CASE("an interrupt ends long calls of the engine") {
   CHECK(says(caught.error, "interrupted"));
 }
 
+TEST_CASE("a script that catches the interruption of the engine cannot let it work again") {
+  // each call lasts many seconds
+  const std::string begin = R"(
+    local clench, calls = require "clench", 0
+    local function work()
+      calls = calls + 1
+      clench.render(clench.world(), {size = {4000, 4000}, samples = 60})
+    end)";
+  for (const char* code :
+       {"while true do pcall(work) end", "pcall(work) pcall(work) pcall(work) error 'not ended'",
+        "local f = coroutine.wrap(function() while true do pcall(work) coroutine.yield() end end) "
+        "while true do pcall(f) end",
+        // a coroutine that waits at the interruption
+        "local inner = coroutine.wrap(function() while true do pcall(work) coroutine.yield() end "
+        "end)"
+        "local outer = coroutine.wrap(function() while true do pcall(inner) end end) outer()"}) {
+    State state;
+    std::thread once([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      state.interrupt();
+    });
+    const auto began = std::chrono::steady_clock::now();
+    const auto result = state.run_code(begin + "\n" + code, "=test");
+    once.join();
+    CHECK(!result.ok);
+    CHECK_MESSAGE(says(result.error, "interrupted"), result.error);
+    CHECK(std::chrono::steady_clock::now() - began < std::chrono::seconds(30));
+  }
+}
+
 TEST_CASE("interrupted parallel work reports its results before the error propagates") {
   State state;
   std::thread once([&] {

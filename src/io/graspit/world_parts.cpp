@@ -120,7 +120,8 @@ int chain_of(const WorldSpec& world, const Connection& connection) {
   fail(
       "{}: '{}' is carried by '{}', which is not the last link of a chain; the format has no other "
       "connections",
-      excerpt(world.source), excerpt(world.robots[connection.child].robot.name),
+      world.source.empty() ? "the world" : excerpt(world.source),
+      excerpt(world.robots[connection.child].robot.name),
       excerpt(parent.links[connection.link].body.name));
 }
 

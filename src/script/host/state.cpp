@@ -14,7 +14,9 @@
 #include "clench/script/bind/log.h"
 #include "clench/script/host/modules.h"
 #include "clench/script/host/open.h"
+#include "clench/script/host/popen.h"
 #include "clench/script/lua/chunks.h"
+#include "clench/script/lua/deadline.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/object.h"
 #include "clench/script/lua/packed.h"
@@ -54,11 +56,16 @@ static int panic(lua_State* L) {
   return 0;
 }
 
+static constexpr int all_events = LUA_MASKCALL | LUA_MASKRET | LUA_MASKCOUNT;
+
 // Lua reports the coroutine that it enters or returns to
 int State::track(lua_State* L) {
   auto* state = static_cast<State*>(lua_touserdata(L, lua_upvalueindex(1)));
-  if (lua_State* thread = lua_tothread(L, 1))
-    state->running_.store(thread, std::memory_order_relaxed);
+  lua_State* thread = lua_tothread(L, 1);
+  if (!thread) return 0;
+  state->running_.store(thread, std::memory_order_relaxed);
+  // a coroutine that was waiting at the interruption, too
+  if (state->interrupts_ > 0) lua_sethook(thread, on_hook, all_events, 1);
   return 0;
 }
 
@@ -67,6 +74,7 @@ static int open_all(lua_State* L) {
   lua_pushboolean(L, 1);
   lua_setfield(L, LUA_REGISTRYINDEX, "LUA_NOENV");
   luaL_openlibs(L);
+  replace_popen(L);
   refuse_bytecode(L);
   add_user_modules(L);
   luaL_requiref(L, "clench", clench_open, 1);
@@ -194,7 +202,16 @@ static constexpr double patience = 3;
 #else
 static constexpr double patience = 0.5;
 #endif
-static constexpr int all_events = LUA_MASKCALL | LUA_MASKRET | LUA_MASKCOUNT;
+
+// Code that catches the interruption may call the engine; that call, too, ends with its patience.
+void State::remind() {
+  if (reminder_) return;
+  try {
+    reminder_ = std::make_unique<Deadline>(bar_, patient_until_ - now(), &Bar::interrupt);
+  } catch (const std::exception&) {
+    bar_->interrupt();  // no thread: the next call ends at once
+  }
+}
 
 void State::on_hook(lua_State* L, lua_Debug*) {
   void* data = nullptr;
@@ -205,6 +222,7 @@ void State::on_hook(lua_State* L, lua_Debug*) {
   const bool first = state.bar_->take_all();
   // raised at every instruction from now on, so that a script that catches the error ends, too
   lua_sethook(L, on_hook, all_events, again ? 1 : 1000);
+  if (!again) state.remind();
   if (!again && !first) return;
   push_error_value(L, "interrupted", "stopped");
   lua_error(L);
@@ -242,7 +260,7 @@ void State::look_for_end() { lua_sethook(L_, on_count, LUA_MASKCOUNT, 1000); }
 
 void State::end() {
   ended_ = true;
-  bar_->stop();
+  bar_->stop_for_good();
   resume();
 }
 
@@ -259,6 +277,7 @@ void State::resume() {
 // pops the results of a call down to base
 State::Result State::finish(int status, int base) {
   lua_sethook(L_, nullptr, 0, 0);
+  reminder_.reset();
   bar_->take_all();
   interrupts_ = 0;
   running_.store(L_, std::memory_order_relaxed);

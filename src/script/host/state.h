@@ -14,6 +14,7 @@ struct lua_State;
 namespace clench {
 
 class Bar;
+class Deadline;
 
 class State {
  public:
@@ -104,6 +105,8 @@ class State {
   std::function<void(bool)> on_hold_;
   void hold();
   std::atomic<double> patient_until_ = 0;  // time after which an interruption cannot be caught [s]
+  std::unique_ptr<Deadline> reminder_;     // interrupts calls of the engine again at that time
+  void remind();
 };
 
 }  // namespace clench

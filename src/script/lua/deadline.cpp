@@ -5,8 +5,8 @@
 
 namespace clench {
 
-Deadline::Deadline(std::shared_ptr<Bar> bar, double seconds)
-    : bar_(std::move(bar)), thread_([this, seconds] { wait(seconds); }) {}
+Deadline::Deadline(std::shared_ptr<Bar> bar, double seconds, void (Bar::*request)())
+    : bar_(std::move(bar)), request_(request), thread_([this, seconds] { wait(seconds); }) {}
 
 void Deadline::wait(double seconds) {
   // beyond the range of clocks
@@ -17,7 +17,7 @@ void Deadline::wait(double seconds) {
                    std::chrono::duration_cast<std::chrono::steady_clock::duration>(time);
   if (changed_.wait_until(lock, end, [this] { return closed_; })) return;
   passed_ = true;
-  bar_->end_time();
+  (*bar_.*request_)();
 }
 
 bool Deadline::close() {

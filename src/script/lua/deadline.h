@@ -9,11 +9,11 @@
 
 namespace clench {
 
-/// Asks the watcher of a script to stop, once, after a time, unless it is closed before.
+/// Makes a request to the watcher of a script, once, after a time, unless it is closed before.
 class Deadline {
  public:
   /// seconds  from now; at once if not above 0 [s]
-  Deadline(std::shared_ptr<Bar> bar, double seconds);
+  Deadline(std::shared_ptr<Bar> bar, double seconds, void (Bar::*request)() = &Bar::end_time);
   ~Deadline() { close(); }
   Deadline(const Deadline&) = delete;
   Deadline& operator=(const Deadline&) = delete;
@@ -27,6 +27,7 @@ class Deadline {
   void wait(double seconds);
 
   std::shared_ptr<Bar> bar_;
+  void (Bar::*request_)();
   std::mutex mutex_;
   std::condition_variable changed_;
   bool closed_ = false, passed_ = false;

@@ -47,13 +47,15 @@ void Bar::end() {
 bool Bar::take_end_of_time() {
   if (!out_of_time_.exchange(false)) return false;
   take_stop();
-  if (interrupted_) stop();
+  if (interrupted_ || stopped_for_good_) stop();
   return true;
 }
 
 bool Bar::take_all() {
   interrupted_ = false, out_of_time_ = false;
-  return take_stop();
+  const bool asked = take_stop();
+  if (stopped_for_good_) stop();
+  return asked;
 }
 
 void Bar::show(double fraction, std::string_view text) {

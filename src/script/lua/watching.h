@@ -33,10 +33,12 @@ class Bar : public Watcher {
   void interrupt() { interrupted_ = true, stop(); }
   /// Requests a stop at the end of a time limit. Any thread may call it.
   void end_time() { out_of_time_ = true, stop(); }
-  /// Withdraws a request of end_time(), and leaves that of interrupt().
+  /// Requests a stop that cannot be withdrawn. Any thread may call it.
+  void stop_for_good() { stopped_for_good_ = true, stop(); }
+  /// Withdraws a request of end_time(), and leaves those of the others.
   /// returns  true if there was one
   bool take_end_of_time();
-  /// Withdraws all requests.
+  /// Withdraws all requests, except stop_for_good().
   /// returns  true if there was one
   bool take_all();
 
@@ -50,7 +52,7 @@ class Bar : public Watcher {
   bool drawn_ = false, in_script_ = false;
   mutable std::mutex mutex_;
   std::optional<State> script_;  // progress of the script's loops; guarded by mutex_
-  std::atomic<bool> interrupted_ = false, out_of_time_ = false;
+  std::atomic<bool> interrupted_ = false, out_of_time_ = false, stopped_for_good_ = false;
 };
 
 /// Writes lines to stderr, in place of a visible bar, which is drawn again below them. Any thread

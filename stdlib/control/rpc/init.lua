@@ -56,6 +56,7 @@ local function new_answerer(server, client)
     if not client.is_authorized and name ~= "hello" then failure.raise("unauthorized", "%s: expected hello with the server's token first", shown(name)) end
     return values.of(methods.call(context, name, params, client.is_authorized))
   end
+  function answerer.has_gone() return client:has_gone() end
   function answerer.hold() client:hold() end
   function answerer.release() client:release() end
   function answerer.is_long(name) return client.is_authorized and methods.is_long(session, name) end

@@ -5,7 +5,8 @@ local null_ids = require "clench.control.rpc.null_ids"
 local new_turn = require "clench.control.turn"
 local messages = {}
 
-local max_batch = 1000  -- requests
+local max_batch = 1000     -- requests
+local max_values = 50000  -- in the parameters of one request
 local null = clench.json.null
 
 --- Result of a request that is not answered, because its client has cancelled it.
@@ -47,8 +48,19 @@ local function response(id, result)
   return ('{"id":%s,"jsonrpc":"2.0","result":%s}'):format(math.type(id) == "integer" and id or clench.json.encode(id), text)
 end
 
+-- the number of values in nested tables, or a number above max_values
+local function count_of(value, count)
+  for _, item in next, value do
+    count = count + 1
+    if count > max_values then return count end
+    if type(item) == "table" then count = count_of(item, count) end
+  end
+  return count
+end
+
 local function result_of(message, call)
   local params = check_form(message)
+  if count_of(params, 0) > max_values then failure.raise("refused", "params: expected at most %d values in one request", max_values) end
   return call(message.method, params, message.id)
 end
 
@@ -66,18 +78,17 @@ end
 
 local function no_pause() end
 
--- pause: called between the requests of a batch
+-- pause: called between the requests of a batch; true: the rest is not needed
 local function respond_to_all(message, call, line, pause)
-  local has_null_id = null_ids(line)
-  if not is_list(message) then return respond(message, call, has_null_id[1]) end
+  if not is_list(message) then return respond(message, call, null_ids(line)[1]) end
   if #message == 0 or #message > max_batch then
     local ok, problem = pcall(failure.raise, "request", "expected 1 to %d requests in a batch, got %d", max_batch, #message)
     return not ok and messages.encode {jsonrpc = "2.0", id = null, error = failure.of(problem)}
   end
-  local responses = {}
+  local responses, has_null_id = {}, null_ids(line)
   for i, one in ipairs(message) do
     responses[#responses + 1] = respond(one, call, has_null_id[i])
-    pause()
+    if pause() then return nil end
   end
   if #responses > 0 then return "[" .. table.concat(responses, ",") .. "]" end
 end
@@ -101,11 +112,12 @@ local function decoded(line)
   return clench.json.decode(line)
 end
 
--- Answers a batch in a task: others are served meanwhile, further requests of its client later.
+-- Answers a batch in a task: others are served meanwhile, further requests of its client later. It ends when its client has gone.
 local function serve_in_turns(message, line, answerer)
   answerer.hold()
   clench.loop.spawn(function()
-    answerer.reply(respond_to_all(message, answerer.call, line, new_turn()))
+    local pause = new_turn()
+    answerer.reply(respond_to_all(message, answerer.call, line, function() return pause() and answerer.has_gone() end))
     answerer.release()
   end)
 end
@@ -117,6 +129,7 @@ end
 ---  call(method: string, params: table, id: any): any  result of a request, as plain data
 ---  is_long(method: string, params: table): boolean
 ---  hold(), release()  keep further requests of its client back; nil if there are no other clients
+---  has_gone(): boolean  no answer can be sent any more; with hold
 function messages.serve(line, answerer)
   if not line:find "%S" then return end
   local ok, message = pcall(decoded, line)

@@ -1,13 +1,9 @@
 --- Finds requests whose id is null: decoded objects do not distinguish these from notifications, which have no id.
 
--- the end of the string that begins at a quote
-local function end_of_string(line, at)
-  repeat
-    at = line:find('["\\]', at + 1)
-    local is_escape = at and line:byte(at) == 92
-    if is_escape then at = at + 1 end
-  until not is_escape
-  return at or #line
+-- Does an object, without strings, have a null id of its own?
+local function has_mark(object)
+  if not object:find "N" then return false end
+  return object:sub(2, -2):gsub("%b{}", ""):gsub("%b[]", ""):find "N" ~= nil
 end
 
 ---@param line string  valid JSON: a request, or a batch
@@ -15,20 +11,18 @@ end
 return function(line)
   local found = {}
   if not line:find '"id"%s*:%s*null' then return found end
-  local of_request = line:find "^%s*%[" and 2 or 1  -- depth of its fields
-  local depth, number, at = 0, 1, 1
-  while true do
-    at = line:find('["{}%[%],]', at)
-    if not at then return found end
-    local c, last = line:sub(at, at), at
-    if c == '"' then
-      last = end_of_string(line, at)
-      if depth == of_request and line:sub(at, last) == '"id"' and line:find("^%s*:%s*null", last + 1) then found[number] = true end
-    elseif c == "," then
-      if depth == of_request - 1 then number = number + 1 end
-    else
-      depth = depth + (c:find "[{%[]" and 1 or -1)
-    end
-    at = last + 1
+  -- without strings all brackets and commas belong to the structure; N marks a null id
+  local plain = line:gsub("\\.", "x"):gsub('"id"%s*:%s*null', "N"):gsub('"[^"]*"', "")
+  local batch = plain:match "^%s*%[(.*)%]%s*$"
+  if not batch then
+    found[1] = has_mark(plain:match "^%s*(.-)%s*$") or nil
+    return found
   end
+  local number = 0
+  local requests = batch:gsub("%b{}", function(object) return has_mark(object) and "N" or "" end):gsub("%b[]", "")
+  for request in (requests .. ","):gmatch "([^,]*)," do
+    number = number + 1
+    found[number] = request:find "N" and true or nil
+  end
+  return found
 end

@@ -37,6 +37,7 @@ local function field_of(thing, field)
 end
 
 local max_fields = 1000  -- of one request
+local max_links = 1000
 
 local function check_count(count)
   if count > max_fields then failure.raise("refused", "at most %d fields are read in one request, got %d", max_fields, count) end
@@ -151,6 +152,7 @@ add("world.hash", "Equal for worlds in the same state.", {}, function(context) r
 
 add("world.average_contacts", "Resultant contact force on each of the given bodies in the last step, and its center.",
     {{name = "links", type = "table", text = "addresses"}}, function(context, args)
+      if #args.links > max_links then failure.raise("refused", "links: expected at most %d addresses, got %d", max_links, #args.links) end
       local links = arguments.find_all(context.session, "links", args.links)
       for i, thing in ipairs(links) do links[i] = arguments.find_body(context.session, thing) end
       return world_of(context):average_contacts(links)

@@ -57,9 +57,26 @@ end
 
 local function snapshot_text(world, parts) return world and clench.json.encode(values.of(snapshot_of(world, parts))) or "null" end
 
+local reused_for = 4  -- times as long as it took to make it
+
+-- The text of a snapshot. Groups of other rates share it for a short time, so that however many there are, they leave time for requests.
+local function shared_text(server, parts)
+  local world, now, key = server.session.world, clench.clock(), ("%s %s"):format(parts.poses, parts.contacts)
+  local texts = server.snapshot_texts or {}
+  server.snapshot_texts = texts
+  local kept = texts[key]
+  if kept and kept.world == world and now < kept.until_time then return kept.text end
+  local text = snapshot_text(world, parts)
+  texts[key] = {world = world, text = text, until_time = now + reused_for * (clench.clock() - now)}
+  return text
+end
+
+-- the period of a rate: above 50 Hz whole milliseconds, so that similar rates share a timer [s]
+local function period_of(rate) return rate > 50 and math.ceil(1000 / rate - 1e-9) / 1000 or 1 / rate end
+
 -- sends a snapshot to the subscribers of a group whose last one differs from it
 local function send_snapshots(server, group)
-  local text = snapshot_text(server.session.world, group.parts)
+  local text = shared_text(server, group.parts)
   for _, subscriber in ipairs {table.unpack(group.subscribers)} do
     local client = subscriber.client
     -- a client that has not yet received the last one is sent a later one
@@ -72,12 +89,13 @@ end
 
 -- subscribers to the same content at the same rate share a timer and a text
 local function group_of(server, parts)
-  local key = ("%.17g %s %s"):format(parts.rate, parts.poses, parts.contacts)
+  local period = period_of(parts.rate)
+  local key = ("%.17g %s %s"):format(period, parts.poses, parts.contacts)
   local groups = server.snapshot_groups or {}
   server.snapshot_groups = groups
   if not groups[key] then
     local group = {parts = parts, subscribers = {}}
-    group.timer = clench.loop.every(1 / parts.rate, function() send_snapshots(server, group) end)
+    group.timer = clench.loop.every(period, function() send_snapshots(server, group) end)
     function group.finish()
       group.timer:remove()
       groups[key] = nil
