@@ -11,6 +11,8 @@ local function cancel(view)
   elseif view.press then
     view.press = nil
     view.session:cancel_gesture()
+  else
+    dialog.cancel(view)
   end
 end
 

@@ -139,6 +139,13 @@ local function draw(view, ui, command, state)
   if ui:button("Cancel", {width = 90}) then view.dialogs[command.name] = nil end
 end
 
+--- Closes the open dialogs; those of planners stay, because their searches continue.
+function dialog.cancel(view)
+  for name in pairs(view.dialogs) do
+    if not is_planner(view.session.commands[name]) then view.dialogs[name] = nil end
+  end
+end
+
 --- Draws the open dialogs.
 function dialog.draw(view, ui)
   local names = {}

@@ -65,7 +65,7 @@ function results.draw(view, ui, state, start)
   if not job then return end
   local progress = job.progress
   ui:progress(job.state == "done" and 1 or math.max(0, math.min(1, progress.fraction or 0)), "")
-  ui:text(("%s  %s"):format(job.state, progress.text or ""))
+  ui:text(("%s  %s"):format(job.state, progress.text or ""), {wrap = true})
   local ok, grasps = pcall(view.session.grasps_of, view.session, job)
   if not ok then return ui:text(tostring(grasps), {color = {0.84, 0.37, 0}, wrap = true}) end
   draw_steps(view, ui, state, grasps)

@@ -154,6 +154,23 @@ local function check_command(t, session, view, other, entry, command)
   other:cancel_gesture()
 end
 
+test("Escape closes a menu and the dialog of a command", function(t)
+  local session, view = open()
+  open_menu(view, "Grasp")
+  t.ok(#shown(view, "menu item") > 20)
+  view:key "escape"
+  view:frame()
+  t.equal(#shown(view, "menu item"), 0)
+  view:menu "Dynamics/Run…"
+  t.ok(view.dialogs["dynamics.run"])
+  view:key "escape"
+  t.equal(view.dialogs["dynamics.run"], nil)
+  view:menu "Grasp/Sampling Planner…"
+  view:key "escape"
+  t.ok(view.dialogs["planner.sample"], "that of a planner stays")
+  view:close()
+end)
+
 test("a menu that is too long for the window stays below its title and chooses nothing", function(t)
   local session = open_session()
   local view = clench.view.offscreen {session = session, size = {900, 400}}
