@@ -205,7 +205,7 @@ function Session:add_job(job, name)
   return jobs.add(self, job, name)
 end
 
---- Grasps of a planner's job: those of its result, best first, or those found so far.
+--- Grasps of a planner's job, best first: those of its result, or those found so far.
 ---@param job job  one of session.jobs
 ---@return grasp[]
 function Session:grasps_of(job)

@@ -78,8 +78,9 @@ void apply_style(const GuiStyle& style) {
   c[ImGuiCol_Header] = mixed(paper, accent, 0.22f);
   c[ImGuiCol_HeaderHovered] = mixed(paper, accent, 0.32f);
   c[ImGuiCol_HeaderActive] = mixed(paper, accent, 0.45f);
-  c[ImGuiCol_CheckMark] = c[ImGuiCol_SliderGrab] = accent;
-  c[ImGuiCol_SliderGrabActive] = mixed(accent, ink, 0.25f);
+  c[ImGuiCol_CheckMark] = accent;
+  c[ImGuiCol_SliderGrab] = mixed(paper, accent, 0.45f);  // the value is written over it
+  c[ImGuiCol_SliderGrabActive] = mixed(paper, accent, 0.6f);
   c[ImGuiCol_PlotLines] = c[ImGuiCol_PlotHistogram] = accent;
   c[ImGuiCol_Tab] = mixed(paper, ink, 0.05f);
   c[ImGuiCol_TabHovered] = mixed(paper, accent, 0.35f);

@@ -17,7 +17,13 @@ class Window final : public Screen {
     glfw().window_hint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfw().window_hint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfw().window_hint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    // frames call the renderer, whose context of EGL cannot be entered while one of GLX is current
+    glfw().window_hint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
     window_ = glfw().create_window(width, height, title.c_str(), nullptr, nullptr);
+    if (!window_) {
+      glfw().window_hint(GLFW_CONTEXT_CREATION_API, GLFW_NATIVE_CONTEXT_API);
+      window_ = glfw().create_window(width, height, title.c_str(), nullptr, nullptr);
+    }
     if (!window_) fail("the viewer needs OpenGL 3.3: {}", glfw_reason("no window was created"));
     glfw().set_user_pointer(window_, this);
     listen();

@@ -28,10 +28,29 @@ function jobs.add(session, job, name)
   return job
 end
 
---- Grasps of a planner's job: those of its result, best first, or those found so far.
+-- is grasp a better than b? Annealing minimizes an energy, other planners maximize epsilon
+local function is_better(a, b)
+  local one, other = a.info.energy, b.info.energy
+  if one and other then return one < other end
+  return (a.epsilon or 0) > (b.epsilon or 0)
+end
+
+-- the best first; equally good ones in the order in which they were found
+local function best_first(found)
+  local order, list = {}, {}
+  for i in ipairs(found) do order[i] = i end
+  table.sort(order, function(i, j)
+    if is_better(found[i], found[j]) then return true end
+    return not is_better(found[j], found[i]) and i < j
+  end)
+  for rank, i in ipairs(order) do list[rank] = found[i] end
+  return list
+end
+
+--- Grasps of a planner's job, best first: those of its result, or those found so far.
 function jobs.grasps(session, job)
   local found = collect(session, job)
-  if job.state ~= "done" then return found end
+  if job.state ~= "done" then return best_first(found) end
   local result = job:result()
   local list = {}
   for i, grasp in ipairs(type(result) == "table" and result.grasps or {}) do list[i] = grasp end

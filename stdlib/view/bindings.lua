@@ -5,12 +5,19 @@ local navigation = require "clench.view.navigation"
 local tools = require "clench.view.tools"
 local bindings = {}
 
+-- closes the palette and the question about a path
+local function close_text(view) view.palette, view.ask = nil, nil end
+
 local function cancel(view)
-  if view.palette then
-    view.palette = nil
+  if view.palette or view.ask then
+    close_text(view)
+  elseif view.leaving then
+    view.leaving = nil
   elseif view.press then
     view.press = nil
     view.session:cancel_gesture()
+  else
+    dialog.cancel(view)
   end
 end
 
@@ -93,12 +100,20 @@ local function take_key(view, shortcut)
   if loser then view.status = ("%s has no key now"):format(loser) end
 end
 
---- Applies the keys pressed in this frame, unless text is being typed: then Escape alone closes the palette.
+-- does a question wait for its answer? Then keys run no commands behind it
+local function is_asking(view) return view.ask ~= nil or view.leaving ~= nil or #(view.left or {}) > 0 end
+
+--- Applies the keys pressed in this frame, unless text is being typed or a question is open: then Escape alone closes the palette, the question or the dialog.
 function bindings.update(view)
   for _, press in ipairs(view.ui.pressed) do
     local shortcut = keys.shortcut(press)
     if view.ui.wants_text then
-      if shortcut == "escape" then view.palette = nil end
+      if shortcut == "escape" then
+        close_text(view)
+        dialog.cancel(view)
+      end
+    elseif shortcut and is_asking(view) then
+      if shortcut == "escape" then cancel(view) end
     elseif shortcut and view.binding then
       take_key(view, shortcut)
     elseif shortcut then

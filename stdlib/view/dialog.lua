@@ -47,6 +47,18 @@ local function draw_choice(ui, state, parameter, choices)
   if changed then state[parameter.name] = choices[index] end
 end
 
+local function choices_of(view, parameter)
+  local choices = parameter.choices or (parameter.type == "robot" or parameter.type == "body") and names_of(view.session, parameter.type)
+  return choices and #choices > 0 and choices or nil
+end
+
+-- name of the parameter whose field takes the keys when the dialog opens
+local function first_text(view, command)
+  for _, parameter in ipairs(command.parameters or {}) do
+    if parameter.type ~= "boolean" and not choices_of(view, parameter) then return parameter.name end
+  end
+end
+
 local function draw_field(view, ui, state, parameter)
   local name = parameter.name
   ui:next_column()
@@ -54,14 +66,16 @@ local function draw_field(view, ui, state, parameter)
   if parameter.text then ui:tooltip(parameter.text) end
   ui:next_column()
   ui:width(210)
-  local choices = parameter.choices or (parameter.type == "robot" or parameter.type == "body") and names_of(view.session, parameter.type)
-  if choices and #choices > 0 then
+  local choices = choices_of(view, parameter)
+  if choices then
     draw_choice(ui, state, parameter, choices)
   elseif parameter.type == "boolean" then
     local value, changed = ui:checkbox("##" .. name, state[name] == true)
     if changed then state[name] = value end
   else
-    local text, changed = ui:text_input("##" .. name, state.texts[name] or shown(state[name]), {hint = parameter.optional and "default" or ""})
+    local text, changed, entered = ui:text_input("##" .. name, state.texts[name] or shown(state[name]), {hint = parameter.optional and "default" or "", on_enter = true, focus = state.focus == name})
+    if state.focus == name then state.focus = nil end
+    state.entered = state.entered or entered
     if changed then state.texts[name], state[name] = text, read(parameter, text) end
   end
   if parameter.text then ui:tooltip(parameter.text) end
@@ -105,6 +119,7 @@ function dialog.fill(view, command)
   if is_planner(command) then state.hand, state.object = view.session.hand.name, view.session.object.name end
   -- in a window the user watches and stops a search: it is limited by time, not by steps
   if is_planner(command) and state.steps then state.steps, state.seconds = 10000000, 60 end
+  if not is_planner(command) then state.focus = first_text(view, command) end
   view.dialogs[command.name] = state
 end
 
@@ -134,9 +149,19 @@ local function draw(view, ui, command, state)
   if is_planner(command) then return draw_planner(view, ui, command, state) end
   draw_fields(view, ui, command, state, math.min(#(command.parameters or {}) * (ui.line_height + 6) + 8, 420))
   if state.error then ui:text(state.error, {color = {0.84, 0.37, 0}, wrap = true}) end
-  if ui:button("OK", {width = 90}) then run(view, command, state) end
+  if ui:button("OK", {width = 90}) or state.entered then
+    state.entered = nil
+    run(view, command, state)
+  end
   ui:same_line()
   if ui:button("Cancel", {width = 90}) then view.dialogs[command.name] = nil end
+end
+
+--- Closes the open dialogs; those of planners stay, because their searches continue.
+function dialog.cancel(view)
+  for name in pairs(view.dialogs) do
+    if not is_planner(view.session.commands[name]) then view.dialogs[name] = nil end
+  end
 end
 
 --- Draws the open dialogs.

@@ -63,6 +63,7 @@ local function is_empty(result) return clench.type(result) == "table" and next(r
 
 --- Shows the result of a command, and for a command that only reads also the Lua that runs it.
 function echo.result(view, command, result, args)
+  if command.name:find "^edit%." then return end  -- undo and redo are events "changed"
   if command.reads and not command.name:find "^world%.select$" then
     local ok, text = pcall(script.literal, args or {})
     print_lua(view, ("session:run(%q%s)"):format(command.name, ok and text ~= "{}" and ", " .. text or ""))

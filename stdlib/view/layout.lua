@@ -178,15 +178,15 @@ local function draw_question(view, ui)
     local ask = view.ask
     local open = ui:window(ask.title, {width = 0, modal = true, can_close = true}, function(ui)
       ui:width(320)
-      local text, _, entered = ui:text_input("path", ask.text, {on_enter = true})
-      ask.text = text
+      local text, _, entered = ui:text_input("path", ask.text, {on_enter = true, focus = not ask.shown})
+      ask.text, ask.shown = text, true
       if ui:button("Save##ask") or entered then
         local ok, message = pcall(ask.done, ask.text)
         if ok then view.ask = nil else ask.error = tostring(message) end
       end
       ui:same_line()
       if ui:button "Cancel##ask" then view.ask = nil end
-      if ask.error then ui:text(ask.error, {color = {0.84, 0.37, 0}}) end
+      if ask.error then ui:text(ask.error, {color = {0.84, 0.37, 0}, wrap = true}) end
     end)
     if not open then view.ask = nil end
   end

@@ -1,6 +1,7 @@
 --- The menu bar: menus of the session's commands, in the order of GraspIt!, and those of the view itself.
 local bindings = require "clench.view.bindings"
 local dialog = require "clench.view.dialog"
+local keys = require "clench.view.keys"
 local navigation = require "clench.view.navigation"
 local preferences = require "clench.view.preferences"
 local units = require "clench.view.units"
@@ -62,6 +63,16 @@ local function help_menu(view, ui)
   if ui:menu_item("About…") then view.shows_about = true end
 end
 
+-- a menu that Escape closes
+local function draw_menu(view, ui, name, draw)
+  ui:menu(name, function(ui)
+    draw(ui)
+    for _, press in ipairs(view.ui.pressed) do
+      if keys.shortcut(press) == "escape" then ui:close_popup() end
+    end
+  end)
+end
+
 --- Draws the menu bar.
 function menus.draw(view, ui)
   local by_name, names = {}, {}
@@ -75,15 +86,15 @@ function menus.draw(view, ui)
   ui:menu_bar(function(ui)
     for _, name in ipairs(names) do
       if by_name[name] or own[name] then
-        ui:menu(name, function(ui)
+        draw_menu(view, ui, name, function(ui)
           if own[name] and name ~= "File" then own[name](view, ui) end
           for _, command in ipairs(by_name[name] or {}) do draw_command(view, ui, command) end
           if name == "File" then own.File(view, ui) end
         end)
       end
     end
-    ui:menu("View", function(ui) view_menu(view, ui) end)
-    ui:menu("Help", function(ui) help_menu(view, ui) end)
+    draw_menu(view, ui, "View", function(ui) view_menu(view, ui) end)
+    draw_menu(view, ui, "Help", function(ui) help_menu(view, ui) end)
   end)
 end
 

@@ -53,7 +53,16 @@ local function draw_steps(view, ui, state, grasps)
   step("<##result", rank - 1, rank > 1)
   step("Best##result", 1, count > 0)
   step(">##result", rank + 1, rank < count)
-  ui:text(rank > 0 and text_of(grasps[rank], rank, count) or count > 0 and ("%d grasps"):format(count) or "no grasps yet", {color = gray})
+  ui:text(rank > 0 and text_of(grasps[rank], rank, count) or count > 0 and ("%d grasps"):format(count) or is_busy(state.job) and "no grasps yet" or "no grasps", {color = gray})
+end
+
+-- why a search has found nothing
+local function draw_report(ui, state)
+  if state.reported ~= state.job then
+    local ok, result = pcall(state.job.result, state.job)
+    state.reported, state.report = state.job, ok and type(result) == "table" and result.report and tostring(result.report) or ""
+  end
+  if state.report ~= "" then ui:text(state.report, {wrap = true}) end
 end
 
 --- Draws the controls of a planner.
@@ -65,10 +74,11 @@ function results.draw(view, ui, state, start)
   if not job then return end
   local progress = job.progress
   ui:progress(job.state == "done" and 1 or math.max(0, math.min(1, progress.fraction or 0)), "")
-  ui:text(("%s  %s"):format(job.state, progress.text or ""))
+  ui:text(("%s  %s"):format(job.state, progress.text or ""), {wrap = true})
   local ok, grasps = pcall(view.session.grasps_of, view.session, job)
   if not ok then return ui:text(tostring(grasps), {color = {0.84, 0.37, 0}, wrap = true}) end
   draw_steps(view, ui, state, grasps)
+  if #grasps == 0 and job.state == "done" then draw_report(ui, state) end
 end
 
 return results

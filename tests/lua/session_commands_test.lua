@@ -140,6 +140,32 @@ test("postures are saved and restored", function(t)
   t.equal(replayed(session):hash(), hash)
 end)
 
+test("closing with motors holds an object that falls out of a hand closed by motion", function(t)
+  local gravity = {0, 0, -9.81}
+  local session = opened()
+  local function height() return session.object.pose.position.z end
+  local first = session.world:hash()
+  session:run("world.settings", {gravity = {0, 0, 0}})
+  local weightless = session.world:hash()
+  session:run "dynamics.close_hand"
+  t.ok(session.world:hash() ~= weightless)
+  session:undo()
+  t.equal(session.world:hash(), weightless)
+  session:redo()
+  session:run("dynamics.run", {seconds = 2})
+  session:run("world.settings", {gravity = gravity})
+  local held = height()
+  session:run("dynamics.run", {seconds = 0.5})
+  t.ok(math.abs(height() - held) < 0.01, height() - held)
+  t.equal(replayed(session):hash(), session.world:hash())
+  for _ = 1, 5 do session:undo() end
+  t.equal(session.world:hash(), first)
+  session:run "grasp.autograsp"
+  local before = height()
+  session:run("dynamics.run", {seconds = 0.5})
+  t.ok(before - height() > 1, before - height())
+end)
+
 test("a gesture is one step of undo, logged as its result", function(t)
   local session = opened()
   local mug, first = session.object, session.world:hash()
@@ -238,6 +264,17 @@ test("dynamics run in real time, are one step of undo, and are logged as their s
   session:run "dynamics.play"
   run_until(t, function() return told ~= nil end)
   t.ok(told:find "no more" and session.playing == nil, told)
+end)
+
+test("grasps of a search that was stopped are sorted by epsilon, too", function(t)
+  local session = opened()
+  local found = session:run("planner.sample", {refine = 0, verify = false, candidates = 1000000, count = 100000})
+  run_until(t, function() return #session:grasps_of(found) >= 8 end)
+  found:stop()
+  t.ok(found:wait(20))
+  local list = session:grasps_of(found)
+  for i = 2, #list do t.ok(list[i - 1].epsilon >= list[i].epsilon, i) end
+  t.ok(list[1].epsilon > list[#list].epsilon)
 end)
 
 test("planners are jobs of the session, with progress, grasps and results, and can be stopped, paused and resumed", function(t)

@@ -42,7 +42,9 @@ test("a grasp that was authored in the panel is found again in JSON lines and in
   for _, ending in ipairs {"jsonl", "yaml"} do
     local path = ("%s.%s"):format(os.tmpname(), ending)
     view:click_label "Save…"
-    view.ask.text = path
+    view:frame()
+    view:key "ctrl+a"
+    view:type(path)
     view:click_label "Save"
     t.equal(view.ask, nil)
     local again = clench.grasps(path)[1]

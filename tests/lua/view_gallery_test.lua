@@ -51,7 +51,9 @@ test("grasps of a file are shown, applied by a click, and saved", function(t)
   t.equal(session.world:hash(), expected:hash())
   local copy = os.tmpname() .. ".csv"
   view:click_label "Save…"
-  view.ask.text = copy
+  view:frame()
+  view:key "ctrl+a"
+  view:type(copy)
   view:click_label "Save"
   t.equal(view.ask, nil)
   t.equal(#clench.grasps(copy), 2)

@@ -154,6 +154,60 @@ local function check_command(t, session, view, other, entry, command)
   other:cancel_gesture()
 end
 
+test("Escape closes a menu and the dialog of a command", function(t)
+  local session, view = open()
+  open_menu(view, "Grasp")
+  t.ok(#shown(view, "menu item") > 20)
+  view:key "escape"
+  view:frame()
+  t.equal(#shown(view, "menu item"), 0)
+  view:menu "Dynamics/Run…"
+  t.ok(view.dialogs["dynamics.run"])
+  view:key "escape"
+  t.equal(view.dialogs["dynamics.run"], nil)
+  view:menu "Grasp/Sampling Planner…"
+  view:key "escape"
+  t.ok(view.dialogs["planner.sample"], "that of a planner stays")
+  view:close()
+end)
+
+test("a path and the first field of a dialog are typed at once, Enter confirms, and keys run no commands behind a question", function(t)
+  local session, view = open()
+  local path, count = os.tmpname(), #session.history.done
+  view:menu "File/Save Session as Script…"
+  view:frame()
+  view:key "ctrl+a"
+  view:type(path)
+  view:key "enter"
+  t.equal(view.ask, nil)
+  local file <close> = assert(io.open(path))
+  t.equal(file:read "a", session:script() .. "\n")
+  os.remove(path)
+  view:menu "File/Save Session as Script…"
+  view:key "escape"
+  view:frame()
+  t.equal(view.ask, nil)
+  view:menu "Dynamics/Run…"
+  view:frame()
+  view:key "ctrl+a"
+  view:type "0.01"
+  view:key "enter"
+  t.equal(view.dialogs["dynamics.run"], nil)
+  t.equal(session.world.time, 0.01)
+  view:key "ctrl+q"
+  view:frame()
+  t.ok(view.leaving or view.wants_exit)
+  view.leaving = {purpose = "exit", go = function() end}
+  view:frame()
+  local before = session.world:hash()
+  view:key "ctrl+g"
+  t.equal(session.world:hash(), before)
+  view:key "escape"
+  t.equal(view.leaving, nil)
+  t.equal(#session.history.done, count + 1)
+  view:close()
+end)
+
 test("a menu that is too long for the window stays below its title and chooses nothing", function(t)
   local session = open_session()
   local view = clench.view.offscreen {session = session, size = {900, 400}}

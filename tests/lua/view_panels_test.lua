@@ -253,3 +253,18 @@ test("a planner is started, its results are stepped through, and targets become 
   t.equal(session.world:hash(), best)
   view:close()
 end)
+
+test("the dialog of a planner that finds nothing shows why", function(t)
+  local session, view = open()
+  view.picture_visible = false
+  view:menu "Grasp/Sampling Planner…"
+  local state = view.dialogs["planner.sample"]
+  state.candidates, state.seed, state.refine, state.verify = 2, 6, 0, false
+  view:click_label "Start"
+  t.equal(state.error, nil)
+  state.job:wait(60)
+  t.equal(#session:grasps_of(state.job), 0)
+  view:frame()
+  t.ok(state.report:find "nothing touched: 1" and state.report:find "friction", state.report)
+  view:close()
+end)

@@ -7,6 +7,12 @@ local function write(name, text)
   assert(os.rename(folder .. "/" .. name .. ".new", folder .. "/" .. name))
 end
 
+-- a picture that is drawn within a frame of the window, as those of the gallery are
+local picture
+clench.view.panel {name = "Picture", draw = function(ui)
+  if picture == nil then picture = select(2, pcall(clench.render, session.world, {size = {64, 48}, quality = "draft"})) end
+end}
+
 clench.loop.every(0.1, function()
   if view.is_closed then return end
   local lines = {}
@@ -15,6 +21,6 @@ clench.loop.every(0.1, function()
   end
   write("items.txt", table.concat(lines, "\n") .. "\n")
   local eye = view.camera.eye
-  write("state.txt", ("hash %s\neye %.4f %.4f %.4f\nframes %d\nmodified %s\n"):format(
-    session.world:hash(), eye.x, eye.y, eye.z, view.frames, tostring(session:is_modified())))
+  write("state.txt", ("hash %s\neye %.4f %.4f %.4f\nframes %d\nmodified %s\npicture %s\n"):format(
+    session.world:hash(), eye.x, eye.y, eye.z, view.frames, tostring(session:is_modified()), tostring(picture)))
 end)

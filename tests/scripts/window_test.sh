@@ -68,6 +68,9 @@ until_value hash is_not ""
 first=$(value hash)
 xdotool search --sync --onlyvisible --name '^barrett_mug.wld - Clench$' >/dev/null || fail "the title names the file"
 
+# a picture can be drawn within a frame of the window
+until_value picture is "picture of 64 x 48 pixels"
+
 # a drag with the left button turns the camera, and the wheel moves it closer
 eye=$(value eye)
 xdotool mousemove 500 400 && sleep 0.3 && xdotool mousedown 1 && sleep 0.1 && xdotool mousemove 580 420 && sleep 0.3 && xdotool mouseup 1

@@ -1,4 +1,5 @@
 --- Commands of the Dynamics menu: runs the simulation at once, in steps or in real time, and manages a stack of states.
+local arguments = require "clench.session.arguments"
 local conditions = require "clench.session.conditions"
 local playback = require "clench.session.playback"
 local recorded = require "clench.session.recorded"
@@ -25,6 +26,10 @@ return {
      for _ = 1, args.count do session.world:run(step) end
    end,
    script = function(session, args) return script.steps(args.count, session.world.time_step) end},
+  {name = "dynamics.close_hand", label = "Close with Motors", menu = "Dynamics", enabled = conditions.hand,
+   parameters = {{name = "hand", type = "robot", optional = true, text = "address of a robot; the current hand by default"}},
+   run = function(session, args) return arguments.find_robot(session, args.hand):autograsp {dynamic = true} end,
+   script = function(session, args) return script.name_of(arguments.find_robot(session, args.hand)) .. ":autograsp({dynamic = true})" end},
   {name = "dynamics.play", label = "Play/Pause", menu = "Dynamics", shortcut = "space", enabled = conditions.world, reads = true,
    parameters = {{name = "speed", type = "number", min = 1e-6, max = 1000, default = 1, text = "simulated seconds per second of the clock"}},
    run = function(session, args)

@@ -7,7 +7,8 @@ local function draw(ui, view)
       ui:text(("%d  %s  %s"):format(i, job.name or "", job.state))
       local progress = job.progress
       local fraction = job.state == "done" and 1 or progress.fraction or 0
-      ui:progress(math.max(0, math.min(1, fraction)), job.state == "running" and progress.text or "")
+      ui:progress(math.max(0, math.min(1, fraction)), "")
+      if progress.text then ui:text(progress.text, {wrap = true}) end
       if job.state == "running" or job.state == "paused" or job.state == "queued" then
         if ui:button(job.state == "paused" and "Resume" or "Pause") then view:run(job.state == "paused" and "job.resume" or "job.pause", {job = i}) end
         ui:same_line()
