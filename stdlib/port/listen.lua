@@ -52,7 +52,7 @@ end
 ---@option port? integer [0 to 65535] = 0  0: the system chooses one, the listener's field `port`
 ---@option path? string  of a Unix socket, instead of host and port; only programs of the same user may connect
 ---@return listener listener # `accept`, `close`, `name`, `port`
----@effect edits
+---@effect edits, files
 --- > listener = clench.port.listen {port = 0}
 --- > listener.port > 0  --> true
 --- > listener:accept(0)  --> nil, timeout

@@ -79,7 +79,7 @@ function Viewer:home(all)
     return
   end
   local x, y, width, height = stereo.rectangle(self, layout.uncovered(self))
-  local c = clench.camera(self.session.world, {size = {math.max(1, width // 1), math.max(1, height // 1)}, frame = all and "all" or "contacts"})
+  local c = clench.camera(self.session.world, {size = {width // 1, height // 1}, frame = all and "all" or "contacts"})
   self.camera = camera.within(c, self.ui.size, x, y, width, height)
 end
 
@@ -167,6 +167,7 @@ end
 function Viewer:screenshot(options)
   options = check.options("view:screenshot", options, {"path", "camera", "size", "panels", "stereo"})
   local in_stereo = stereo.checked("view:screenshot: stereo", options.stereo)
+  follow_world(self)
   local ui, before, visible, seen = self.ui, self.camera, self.panels_visible, self.stereo
   local other = options.size and clench.ui {size = options.size, dark = self.dark, scale = self.scale}
   local _ <close> = setmetatable({}, {__close = function()

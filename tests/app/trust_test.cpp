@@ -115,7 +115,7 @@ TEST_CASE("--confine restricts reading of models to a folder, for every verb") {
   // a world in Lua is a program, and is not run
   const auto world = run("check" + confined + in + "/w.lua");
   CHECK(world.code == 1);
-  CHECK(has(world.out, "w.lua: a world in Lua is a program, which reads what it likes"));
+  CHECK(has(world.out, "w.lua: a world in Lua is a program, which may read any file"));
 
   // scripts inherit the folder as their default, which a call may change
   const std::string script = folder.file(

@@ -91,7 +91,7 @@ test("edited DOFs that contradict unedited joints are rejected", function(t)
   local hand = world.robots[1]
   local before = hand.dofs
   local edited = with(function(s) return s:gsub('"dofs":%[[^,]*,', '"dofs":[0.123,') end)
-  t.fails(function() edited:apply(world) end, "and its DOF puts it at 0.123; omit 'joints' to use the DOFs alone")
+  t.fails(function() edited:apply(world) end, "but its DOF puts it at 0.123; omit 'joints' to use the DOFs alone")
   t.equal(hand.dofs, before)
   local alone = with(function(s) return s:gsub('"dofs":%[[^,]*,', '"dofs":[0.123,'):gsub('"joints":%[[^%]]*%],?', "") end)
   alone:apply(world)

@@ -84,7 +84,7 @@ for _, name in ipairs {"gallery", "ur5_jaw_shelf", "puma_barrett_glass"} do
     local warnings = {}
     clench.log.sink(function(level, text)
       -- the inertia of a link of the Puma was measured, and is impossible for a rigid body
-      if level == "warning" and not text:find "raised to it$" then warnings[#warnings + 1] = text end
+      if level == "warning" and not text:find "increased to equal it$" then warnings[#warnings + 1] = text end
     end)
     local world = clench.load("worlds/" .. name .. ".wld", {root = "."})
     clench.log.sink()

@@ -48,7 +48,7 @@ test("a glove moves the hand by its calibration, as one step of undo", function(
   t.fails(function() session:run "sensors.apply" end, "neither a glove nor a tracker is connected")
   local device <close> = simulated.cyberglove {sensors = {20, 60}}
   connect(t, session, "glove", device)
-  t.fails(function() session:run "sensors.apply" end, "calibration must be {slopes, intercepts}")
+  t.fails(function() session:run "sensors.apply" end, "calibration: expected {slopes, intercepts}, or a hand with a glove, got nothing")
   load_calibration(session)
   session:run "sensors.apply"
   t.close(session.hand.dofs[2], 0.3, 1e-9)
@@ -217,7 +217,7 @@ test("clients of a server use devices, but connect none", function(t)
   local session = opened()
   local methods = require "clench.control.rpc.methods"
   for _, folder in ipairs {false, "."} do
-    local context = {session = session, server = {session = session, folder = folder or nil, jobs = {}}}
+    local context = {session = session, client = {}, server = {session = session, folder = folder or nil, jobs = {}}}
     for _, kind in ipairs {"glove", "tracker", "hand"} do
       local ok, problem = pcall(methods.call, context, "sensors.connect_" .. kind, {path = "/dev/null"}, true)
       t.equal(ok, false)

@@ -217,7 +217,7 @@ test("faults of options are reported in one sentence", function(t)
   refused({frictoin = 1}, "study.robustness: unknown key 'frictoin'")
   t.fails(function() clench.study.robustness() end, "study.robustness: expected a grasp, got nothing")
   t.fails(function() clench.study.robustness(grasp.hand, {}) end, "study.robustness: expected a grasp, got a robot")
-  t.fails(function() return clench.study.robust end, "study: there is no 'robust', only compare, fall_off, lift, planner_speed, predictors, robustness, shake")
+  t.fails(function() return clench.study.robust end, "study: there is no 'robust', only compare, fall_off, lift, planner_speed, predictors, resistible_wrenches, robustness, shake, shake_base")
 end)
 
 test("grasps are compared measure by measure, and drawn", function(t)

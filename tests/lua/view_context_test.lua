@@ -15,20 +15,20 @@ local function right_click(view, x, y) input.click(view, x, y, 1) end
 test("a right click on a body opens its menu, whose entries act on it", function(t)
   local session, view = open()
   local mug = session.world:body "mug"
-  right_click(view, 560, 650)
+  right_click(view, 585, 560)
   view:click_label "Select This"
   t.equal(session.selection[1] == mug, true)
   t.equal(view.context, nil)
-  right_click(view, 560, 650)
+  right_click(view, 585, 560)
   view:click_label "Collisions ON/OFF"
   t.equal(session.world:may_collide(mug), false)
   session:undo()
-  local point = view:pick(560, 650).point
-  right_click(view, 560, 650)
+  local point = view:pick(585, 560).point
+  right_click(view, 585, 560)
   view:click_label "Seek This"
   t.close((view.camera.target - point):norm(), 0, 1e-9)
   view:home()
-  right_click(view, 560, 650)
+  right_click(view, 585, 560)
   view:click_label "Remove"
   t.equal(#session.world.objects, 0)
   view:close()
@@ -54,7 +54,7 @@ test("a right click on the background opens the menu of the camera, and a drag w
   right_click(view, 800, 100)
   view:click_label "Orthographic"
   t.ok(view.camera.orthographic)
-  view:drag(560, 650, 600, 660, {button = 1})
+  view:drag(585, 560, 600, 660, {button = 1})
   t.equal(view.context, nil)
   view:close()
 end)

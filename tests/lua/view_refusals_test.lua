@@ -11,7 +11,7 @@ test("options of views and panels are checked", function(t)
   t.fails(function() offscreen {session = session.world} end, "session: expected a session, got a world")
   t.fails(function() clench.view.open(5) end, "clench.view.open: session: expected a session, got 5")
   for _, scale in ipairs {1e9, 100, 0.01} do
-    t.fails(function() offscreen {session = session, scale = scale} end, "scale of the view: expected 0.25 to 8, got ")
+    t.fails(function() offscreen {session = session, scale = scale} end, "scale must be 0.25 to 8, got ")
   end
   t.fails(function() offscreen {session = session, size = {1e18, 100}} end, "size of the view: expected 16 to 8192 pixels, got 1000000")
   t.fails(function() clench.ui {size = {64, 64}}:set_style {font_size = 2000} end, "font_size of the view, times its scale: expected 4 to 128 pixels, got 2000")

@@ -21,7 +21,7 @@ test("a screenshot without panels is the draft of the same camera", function(t)
   local shot = view:screenshot {}
   t.equal(shot == clench.render(session.world, {size = {320, 240}, camera = view.camera, quality = "draft"}), true)
   local large = view:screenshot {size = {400, 360}}
-  t.equal({large.size, view.ui.size}, {{400, 360}, {320, 240}})
+  t.equal({large.width, large.height, view.ui.size}, {400, 360, {320, 240}})
   t.equal(large == clench.render(session.world, {size = {400, 360}, camera = view.camera, quality = "draft"}), true)
   t.equal(view:screenshot {} == shot, true)
   -- without picture and panels nothing of the world is drawn
