@@ -1,5 +1,6 @@
 // Renders successive pictures, and caches data that the next ones need.
 #pragma once
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -16,6 +17,8 @@ struct DrawTarget {
   /// renderer's own framebuffer, whose frame `read` returns
   std::optional<unsigned> framebuffer = {};
   int x = 0, y = 0;
+  /// red, green and blue: those that are written; all of them in the renderer's own framebuffer
+  std::array<bool, 3> channels = {true, true, true};
 };
 
 /// Caches compiled programs, meshes on the graphics card, render targets, the shadow, and the last

@@ -42,6 +42,14 @@ struct KeyPress {
 /// A color: red, green, blue, opacity, each from 0 to 1.
 using Rgba = std::array<float, 4>;
 
+/// Where and how a scene is drawn: for pictures of two eyes, half of the screen, or some of the
+/// channels red, green and blue.
+struct ScenePane {
+  enum class Part { all, left, right };
+  Part part = Part::all;
+  std::array<bool, 3> channels = {true, true, true};
+};
+
 struct GuiStyle {
   bool dark = false;
   double scale = 1;       ///< factor of fonts and sizes, 0.25 to 8
@@ -84,9 +92,10 @@ class Gui {
   bool poll();
   /// dt  time since the last frame, > 0 [s]
   void begin(double dt);
-  /// Draws the scene behind all panels, as a draft with the size of the screen.
+  /// Draws the scene behind all panels, as a draft with the size of the pane.
   /// throws  as Renderer::draw_to
-  void show(const Scene& scene, const Eye& eye, const RenderOptions& options);
+  void show(const Scene& scene, const Eye& eye, const RenderOptions& options,
+            const ScenePane& pane = {});
   /// Camera that frames the scene.
   Eye frame_all(const Scene& scene);
   void end();
@@ -96,6 +105,7 @@ class Gui {
   Picture read();
   int width() const;
   int height() const;
+  std::string renderer() const;  ///< name of the OpenGL renderer
   void set_title(const std::string& title);
   bool close_requested() const;  ///< since the last begin()
   void close_handled();
@@ -187,6 +197,8 @@ class Gui {
   double line_height() const;
 
   // --- drawing over the picture, under the panels [pixels] ---
+  /// Restricts what `body` draws to a rectangle.
+  void clip(const GuiRect& rect, Body body);
   void line(std::span<const std::array<double, 2>> points, const Rgba& color, double width,
             bool closed);
   void polygon(std::span<const std::array<double, 2>> points, const Rgba& color);

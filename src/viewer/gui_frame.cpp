@@ -195,13 +195,19 @@ static void clear_screen(Gui::State& s) {
   glClear(GL_COLOR_BUFFER_BIT);
 }
 
-void Gui::show(const Scene& scene, const Eye& eye, const RenderOptions& options) {
+void Gui::show(const Scene& scene, const Eye& eye, const RenderOptions& options,
+               const ScenePane& pane) {
   State& s = *state_;
   if (!s.shown) clear_screen(s);
   RenderOptions frame = options;
   frame.width = width(), frame.height = height();
   frame.quality = Quality::draft;
-  s.renderer.draw_to({.framebuffer = s.screen->framebuffer()}, scene, eye, frame);
+  const int left = frame.width / 2;
+  int x = 0;
+  if (pane.part == ScenePane::Part::left) frame.width = left;
+  if (pane.part == ScenePane::Part::right) x = left, frame.width -= left;
+  s.renderer.draw_to({.framebuffer = s.screen->framebuffer(), .x = x, .channels = pane.channels},
+                     scene, eye, frame);
   s.shown = true;
 }
 
@@ -228,6 +234,11 @@ void Gui::end() {
 Picture Gui::read() {
   const std::shared_ptr<void> entered = state_->screen->enter();
   return state_->screen->read();
+}
+
+std::string Gui::renderer() const {
+  const std::shared_ptr<void> entered = state_->screen->enter();
+  return state_->screen->renderer();
 }
 
 int Gui::width() const { return state_->screen->width(); }

@@ -210,6 +210,14 @@ static std::vector<ImVec2> to_points(std::span<const std::array<double, 2>> poin
   return result;
 }
 
+void Gui::clip(const GuiRect& rect, Body body) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.PushClipRect({pixels(rect.x), pixels(rect.y)},
+                    {pixels(rect.x + rect.width), pixels(rect.y + rect.height)}, true);
+  const Closing closing([&list] { list.PopClipRect(); });
+  body();
+}
+
 void Gui::line(std::span<const std::array<double, 2>> points, const Rgba& color, double width,
                bool closed) {
   const std::vector<ImVec2> at = to_points(points);

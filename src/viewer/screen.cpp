@@ -25,6 +25,11 @@ Picture Screen::read() {
   return picture;
 }
 
+std::string Screen::renderer() {
+  const GLubyte* name = glGetString(GL_RENDERER);
+  return name ? reinterpret_cast<const char*>(name) : "";
+}
+
 namespace {
 
 class Offscreen final : public Screen {

@@ -30,6 +30,8 @@ class Screen {
   virtual void poll(std::deque<InputEvent>&) {}
   /// Title of the window.
   virtual void set_title(const std::string&) {}
+  /// Name of its OpenGL renderer; call while entered.
+  std::string renderer();
   /// The pixels drawn last; call while entered.
   Picture read();
 };

@@ -2,6 +2,7 @@
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
 local navigation = require "clench.view.navigation"
+local stereo = require "clench.view.stereo"
 local tools = require "clench.view.tools"
 local bindings = {}
 
@@ -29,6 +30,8 @@ local own = {
   {"panels", "Show or hide panels", "f9", function(view) view.panels_visible = not view.panels_visible end},
   {"cancel", "Cancel", "escape", cancel},
   {"home", "Home", "home", function(view) view:home() end},
+  {"eyes apart", "Eyes of stereo farther apart", "+", function(view) stereo.step(view, 1) end},
+  {"eyes together", "Eyes of stereo closer together", "-", function(view) stereo.step(view, -1) end},
   {"seek", "Seek the point under the mouse", "f", navigation.seek_mouse},
 }
 for i, tool in ipairs(tools.names) do

@@ -1,4 +1,5 @@
---- The camera of a view: projection, rays and navigation. A camera is a table {eye, target, up, field_of_view}, as clench.render takes it.
+--- The camera of a view: projection, rays and navigation. A camera is a table {eye, target, up, field_of_view}, as clench.render takes it; that of
+--- one eye of a stereoscopic picture has its shift `aside`, as a fraction of the height.
 local camera = {}
 
 local least_distance = 1e-4  -- of eye and target [m]
@@ -37,14 +38,14 @@ function camera.project(c, size, point)
     if depth <= 0 then return nil end
     scale = size[2] / (2 * depth * math.tan(c.field_of_view / 2))
   end
-  return size[1] / 2 + p:dot(right) * scale, size[2] / 2 - p:dot(up) * scale
+  return size[1] / 2 + (c.aside or 0) * size[2] + p:dot(right) * scale, size[2] / 2 - p:dot(up) * scale
 end
 
 --- The ray through a pixel: its origin and unit direction.
 function camera.ray(c, size, x, y)
   local right, up, back = camera.axes(c)
   local scale = camera.height(c) / size[2]
-  local offset = right * ((x - size[1] / 2) * scale) + up * ((size[2] / 2 - y) * scale)
+  local offset = right * ((x - size[1] / 2 - (c.aside or 0) * size[2]) * scale) + up * ((size[2] / 2 - y) * scale)
   if c.orthographic then return c.eye + offset, back * -1 end
   return c.eye, (c.target + offset - c.eye):unit()
 end

@@ -1,6 +1,7 @@
 --- Drags of bodies and robots: the pose requested by the mouse, and the motion towards it, which contact stops.
 local camera = require "clench.view.camera"
 local manipulator = require "clench.view.manipulator"
+local together = require "clench.view.together"
 local drags = {}
 
 local rotate_speed = math.pi / 300  -- [rad per pixel]
@@ -107,15 +108,21 @@ function kinds.ball(view, drag)
   end
 end
 
---- Begins a drag of a body or robot.
+--- Begins a drag of a body or robot, or of the selection that contains it.
 ---@param target body|robot
 ---@param handle? table  handle of the manipulator; nil: moves freely, by the picked point
----@return table drag
+---@return table? drag  nil if the selection cannot be dragged, which the status bar says
 function drags.begin(view, target, handle, point, x, y)
+  local members, problem = together.members(view, target)
+  if problem then
+    view.status = problem
+    return nil
+  end
   local drag = {target = target, pose = target.pose, center = manipulator.center(target), point = point, x = x, y = y, handle = handle and handle.name}
   local kind = handle and handle.kind or view.current_tool == "Rotate" and "ball" or "plane"
   drag.pose_at = kinds[kind](view, drag, handle)
-  view.session:begin_gesture(view.current_tool .. " " .. target.name)
+  drag.group = members and together.begin(view, members, drag.center)
+  view.session:begin_gesture(("%s %s%s"):format(view.current_tool, target.name, members and #members > 1 and (" and %d more"):format(#members - 1) or ""))
   return drag
 end
 
@@ -137,7 +144,9 @@ drags.touched = touched
 function drags.move(view, drag, x, y, snaps, constrains)
   local pose, text = drag.pose_at(x, y, snaps, constrains)
   local target, result, miss = drag.target, nil, nil
-  if clench.type(target) == "robot" and target.parent then
+  if drag.group then
+    result = together.move(drag.group, pose * drag.pose:inverse())
+  elseif clench.type(target) == "robot" and target.parent then
     result, miss = move_mounted(target, pose)
   else
     result = target:move_to(pose)

@@ -3,7 +3,7 @@ local raise = require "clench.raise"
 local keys = {}
 
 local codes = {
-  space = 32, ["'"] = 39, [","] = 44, ["-"] = 45, ["."] = 46, ["/"] = 47, [";"] = 59, ["="] = 61, ["["] = 91, ["\\"] = 92, ["]"] = 93, ["`"] = 96,
+  space = 32, ["'"] = 39, [","] = 44, ["-"] = 45, ["."] = 46, ["/"] = 47, [";"] = 59, ["="] = 61, ["["] = 91, ["\\"] = 92, ["]"] = 93, ["`"] = 96, ["+"] = 334,
   escape = 256, enter = 257, tab = 258, backspace = 259, insert = 260, delete = 261, right = 262, left = 263, down = 264, up = 265,
   pageup = 266, pagedown = 267, home = 268, ["end"] = 269,
 }
@@ -12,6 +12,7 @@ for i = 0, 25 do codes[string.char(97 + i)] = 65 + i end
 for i = 1, 12 do codes["f" .. i] = 289 + i end
 local names = {}
 for name, code in pairs(codes) do names[code] = name end
+names[333] = "-"  -- of the numeric keypad
 
 keys.modifiers = {ctrl = 341, alt = 342, shift = 340}
 
@@ -32,9 +33,10 @@ end
 --- The shortcut of a pressed key: "ctrl+g"; nil for keys without a name.
 ---@param press table  one of ui.pressed
 function keys.shortcut(press)
-  local name = names[press.key]
+  local name, shift = names[press.key], press.shift
   if not name then return nil end
-  return (press.ctrl and "ctrl+" or "") .. (press.alt and "alt+" or "") .. (press.shift and "shift+" or "") .. name
+  if name == "=" and shift then name, shift = "+", false end
+  return (press.ctrl and "ctrl+" or "") .. (press.alt and "alt+" or "") .. (shift and "shift+" or "") .. name
 end
 
 --- A shortcut for display: "Ctrl+Shift+Z".

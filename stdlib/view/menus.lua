@@ -4,6 +4,7 @@ local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
 local navigation = require "clench.view.navigation"
 local preferences = require "clench.view.preferences"
+local stereo = require "clench.view.stereo"
 local units = require "clench.view.units"
 local with_ending = require "clench.session.with_ending"
 local menus = {}
@@ -44,6 +45,7 @@ local function view_menu(view, ui)
   if ui:menu_item("View All") then view:home(true) end
   if ui:menu_item("Orthographic", {selected = view.camera.orthographic ~= nil}) then view:toggle_orthographic() end
   navigation.draw_menu(view, ui, function(name) return bindings.shown(view, name) end)
+  stereo.draw_menu(view, ui)
   ui:separator()
   ui:menu("Show Panel", function(ui)
     for _, panel in ipairs(view.panels) do

@@ -14,18 +14,21 @@ local navigation = require "clench.view.navigation"
 local outline = require "clench.view.outline"
 local replay = require "clench.view.replay"
 local selection = require "clench.view.selection"
+local stereo = require "clench.view.stereo"
 local tools = {}
 
 tools.names = {"Camera", "Select", "Translate", "Rotate", "Measure"}
 
---- The hit under a pixel: body, point and normal; nil if there is none.
-function tools.pick(view, x, y)
+local function hit_under(view, c, x, y)
   local world = view.session.world
   if not world then return nil end
-  local origin, direction = camera.ray(view.camera, view.ui.size, x, y)
+  local origin, direction = camera.ray(c, view.ui.size, x, y)
   local hit = replay.world(view):raycast(origin, direction)
   return hit and replay.to_live(view, hit)
 end
+
+--- The hit under a pixel: body, point and normal; nil if there is none.
+function tools.pick(view, x, y) return hit_under(view, stereo.under(view, x), x, y) end
 
 -- the target of a drag of a body: its robot, or the robot that carries that robot's mount; otherwise the body itself
 local function movable(body) return body.robot or body end
@@ -50,11 +53,11 @@ local function begin_drag(view, x, y)
   local handle = handles.at(tools.handles(view), x, y)
   if handle and handle.kind == "joint" then return joint_handles.begin(view, handle, x, y) end
   if handle then return drags.begin(view, handle.target, handle, nil, x, y) end
-  local hit = tools.pick(view, x, y)
+  local hit = hit_under(view, view.camera, x, y)
   if not hit then return nil end
   local target = movable(hit.body)
   local drag = drags.begin(view, target, nil, hit.point, x, y)
-  drag.is_free = true
+  if drag then drag.is_free = true end
   return drag
 end
 
@@ -65,8 +68,8 @@ local function begin_press(view, mouse)
   if tool == "Measure" then return {kind = "measure"} end
   if tool == "Select" then return {kind = "select", x = mouse.x, y = mouse.y} end
   if view.replay then return {kind = "camera"} end  -- recorded states cannot be changed
-  local drag = begin_drag(view, mouse.x, mouse.y)
-  return drag and {kind = "drag", drag = drag} or {kind = "camera"}
+  local drag = stereo.with(view, stereo.under(view, mouse.x), function() return begin_drag(view, mouse.x, mouse.y) end)
+  return drag and {kind = "drag", drag = drag, from_x = mouse.x} or {kind = "camera"}
 end
 
 local function is_part(thing, robot) return thing ~= nil and clench.type(thing) == "body" and thing.robot == robot end
@@ -75,12 +78,13 @@ local function move_drag(view, press, mouse)
   local drag, ui = press.drag, view.ui
   -- the dragged body or robot is selected, unless a part of it is
   local selected = view.session.selection[1]
-  if not press.moved and drag.is_free and selected ~= drag.target and not is_part(selected, drag.target) then
+  if not press.moved and drag.is_free and not drag.group and selected ~= drag.target and not is_part(selected, drag.target) then
     view:run("world.select", {addresses = {view:address(drag.target)}})
   end
   press.moved = true
   local move = drag.move or function(...) drags.move(view, drag, ...) end
-  local ok, problem = pcall(move, mouse.x, mouse.y, ctrl_down(ui), shift_down(ui))
+  -- by the camera of the eye in whose picture the drag began
+  local ok, problem = pcall(stereo.with, view, stereo.under(view, press.from_x), function() move(mouse.x, mouse.y, ctrl_down(ui), shift_down(ui)) end)
   if ok then return end
   -- a motion that starts in collision is rejected
   if is_stopped(problem) then error(problem, 0) end
@@ -151,12 +155,14 @@ end
 
 --- Outlines the selection, and draws its axes, the manipulator and the highlighted contact.
 function tools.draw(view, ui)
-  draw_highlight(view, ui)
-  draw_handles(view, ui)
-  outline.draw(view, ui)
-  measure.draw(view, ui)
-  draw_axes(view, ui)
-  replay.draw(view, ui)
+  stereo.over(view, ui, function()
+    draw_highlight(view, ui)
+    draw_handles(view, ui)
+    outline.draw(view, ui)
+    measure.draw(view, ui)
+    draw_axes(view, ui)
+    replay.draw(view, ui)
+  end)
 end
 
 return tools

@@ -17,6 +17,7 @@ local preferences = require "clench.view.preferences"
 local raise = require "clench.raise"
 local replay = require "clench.view.replay"
 local splitters = require "clench.view.splitters"
+local stereo = require "clench.view.stereo"
 local tools = require "clench.view.tools"
 local user_files = require "clench.view.user_files"
 
@@ -77,7 +78,7 @@ function Viewer:home(all)
     self.camera = self.home_camera
     return
   end
-  local x, y, width, height = layout.uncovered(self)
+  local x, y, width, height = stereo.rectangle(self, layout.uncovered(self))
   local c = clench.camera(self.session.world, {size = {width // 1, height // 1}, frame = all and "all" or "contacts"})
   self.camera = camera.within(c, self.ui.size, x, y, width, height)
 end
@@ -110,8 +111,7 @@ local function draw_world(self, ui)
   local world = self.session.world
   if not (world and self.picture_visible) then return end
   self.camera = camera.complete(world, self.ui.size, self.camera)
-  local c = self.camera
-  local options = {eye = c.eye, target = c.target, up = c.up, field_of_view = c.field_of_view, orthographic = c.orthographic}
+  local options = {}
   for name, value in pairs(self.display) do options[name] = value end
   local shown = not self.replay and self.shown_forces or nil
   if shown and shown.stamp ~= self.stamp then
@@ -119,7 +119,12 @@ local function draw_world(self, ui)
     if world:hash() == shown.hash then shown.stamp = self.stamp else self.shown_forces, shown = nil, nil end
   end
   if shown then options.forces = shown.forces end
-  ui:show(replay.world(self), options)
+  for _, pane in ipairs(stereo.panes(self)) do
+    local c = pane.camera
+    options.eye, options.target, options.up, options.field_of_view, options.orthographic, options.aside = c.eye, c.target, c.up, c.field_of_view, c.orthographic, c.aside
+    options.part, options.channels = pane.part, pane.channels
+    ui:show(replay.world(self), options)
+  end
 end
 
 -- a window follows the clock, which distinguishes double clicks from single ones
@@ -157,19 +162,21 @@ function Viewer:frame()
 end
 
 --- Saves a picture of the view.
----@param options {path?: string, camera?: table, size?: number[], panels?: boolean}  camera and size [pixels]: those of the view by default; panels: as they are by default
+---@param options {path?: string, camera?: table, size?: number[], panels?: boolean, stereo?: table|false}  camera, size [pixels] and stereo: those of the view by default; panels: as they are by default
 ---@return picture
 function Viewer:screenshot(options)
-  options = check.options("view:screenshot", options, {"path", "camera", "size", "panels"})
+  options = check.options("view:screenshot", options, {"path", "camera", "size", "panels", "stereo"})
+  local in_stereo = stereo.checked("view:screenshot: stereo", options.stereo)
   follow_world(self)
-  local ui, before, visible = self.ui, self.camera, self.panels_visible
+  local ui, before, visible, seen = self.ui, self.camera, self.panels_visible, self.stereo
   local other = options.size and clench.ui {size = options.size, dark = self.dark, scale = self.scale}
   local _ <close> = setmetatable({}, {__close = function()
-    self.ui, self.camera, self.panels_visible = ui, before, visible
+    self.ui, self.camera, self.panels_visible, self.stereo = ui, before, visible, seen
     if other then other:close() end
   end})
   if options.camera ~= nil then self.camera = options.camera end
   if options.panels ~= nil then self.panels_visible = options.panels end
+  if options.stereo ~= nil then self.stereo = in_stereo end
   if other then
     self.ui = other
     self:frame()  -- in which windows find their sizes
@@ -191,8 +198,9 @@ end
 
 --- The pixel of a point; nil behind the camera.
 ---@param point vec3  in the world [m]
-function Viewer:project(point)
-  return camera.project(self.camera, self.ui.size, check.point("view:project", "point", point))
+---@param eye? string  "left" or "right": in the picture of this eye; by default between both in an anaglyph, and in the left half of two
+function Viewer:project(point, eye)
+  return camera.project(stereo.of(self, eye), self.ui.size, check.point("view:project", "point", point))
 end
 
 --- The hit under a pixel: body, point, normal, distance; nil if there is none.
@@ -203,7 +211,9 @@ end
 
 --- Handles of the current tool on the selection: `name`, the pixel `x`, `y` at which it can be dragged, and `value` and `limits` of the DOF of a joint.
 ---@return table[] handles
-function Viewer:handles() return tools.handles(self) end
+function Viewer:handles()
+  return stereo.with(self, stereo.of(self), function() return tools.handles(self) end)
+end
 
 --- Turns the camera about its target.
 ---@param yaw number  [degrees]

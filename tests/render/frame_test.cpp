@@ -162,6 +162,26 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("a view that is shifted aside moves all points by this fraction of the height") {
+  const double aspect = 1.5;
+  for (const double ortho_height : {0.0, 2.0}) {
+    Eye eye{.eye = {3, 1, 2}, .ortho_height = ortho_height};
+    const Eigen::Matrix4d straight = view_projection(eye, aspect, 0.1, 10);
+    eye.aside = 0.2;
+    const Eigen::Matrix4d shifted = view_projection(eye, aspect, 0.1, 10);
+    for (const Eigen::Vector3d& p :
+         {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.4, -1, 0.3), Eigen::Vector3d(-2, 1, 1)}) {
+      const Eigen::Vector4d from = straight * p.homogeneous(), to = shifted * p.homogeneous();
+      // from -1 to 1 across the width
+      const Eigen::Vector3d move = to.head<3>() / to.w() - from.head<3>() / from.w();
+      CHECK((move - Eigen::Vector3d(2 * 0.2 / aspect, 0, 0)).norm() < 1e-12);
+    }
+    eye.aside = std::numeric_limits<double>::infinity();
+    CHECK_THROWS_WITH_AS(view_axes(eye), "picture: the shift of a view must be finite, got inf",
+                         Error);
+  }
+}
+
 TEST_CASE("an empty scene has a view, and an invalid aspect ratio is rejected") {
   const Eye eye = frame_all({}, 1.5);
   CHECK(eye.eye.allFinite());

@@ -112,6 +112,7 @@ TEST_CASE("a picked point is in its pixel, on the nearest triangle, whose normal
       scene.meshes.push_back(solid(soup(random, 30, 0.5), {1, 1, 1}, random_pose(random, 0.5)));
     Eye eye{.eye = 3 * random_direction(random), .target = random_point(random, 0.2)};
     if (i % 2) eye.ortho_height = 2;
+    if (i % 3 == 0) eye.aside = 0.1;
     const int x = static_cast<int>(random.uniform(40, 120)),
               y = static_cast<int>(random.uniform(30, 90));
     const auto picked = pick_at(scene, eye, x, y);

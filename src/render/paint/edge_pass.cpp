@@ -13,7 +13,10 @@ void smooth_to(unsigned program, const Cover& cover, unsigned colors, const Rend
   gl::set(program, "window", Eigen::Vector2f(-destination.x, -destination.y));
   gl::set(program, "size", Eigen::Vector2f(options.width, options.height));
   gl::set(program, "bare", options.backdrop != Backdrop::studio ? 1.0f : 0.0f);
+  const auto& [red, green, blue] = destination.channels;
+  glColorMask(red, green, blue, GL_TRUE);
   cover.draw(program);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glEnable(GL_DEPTH_TEST);
 }
 

@@ -1,14 +1,18 @@
 // Anti-aliasing of the edges of a draft on the graphics card.
 #pragma once
+#include <array>
+
 #include "clench/render/paint/shadows.h"
 #include "clench/render/view/render_options.h"
 
 namespace clench {
 
-/// Destination of a picture: a framebuffer, and the picture's lower left corner in it [pixels].
+/// Destination of a picture: a framebuffer, the picture's lower left corner in it [pixels], and
+/// which of red, green and blue are written.
 struct Destination {
   unsigned framebuffer = 0;
   int x = 0, y = 0;
+  std::array<bool, 3> channels = {true, true, true};
 };
 
 /// Mixes each pixel at a stepped edge with the pixel across the edge: the nearer to the step, the

@@ -34,6 +34,8 @@ Eigen::Matrix3d view_axes(const Eye& eye) {
     fail("picture: field of view must be between 0.001 and 3 [rad], got {}", eye.field_of_view);
   if (!(eye.ortho_height >= 0 && std::isfinite(eye.ortho_height)))
     fail("picture: the height of an orthographic view must be >= 0 [m], got {}", eye.ortho_height);
+  if (!std::isfinite(eye.aside))
+    fail("picture: the shift of a view must be finite, got {}", eye.aside);
   const Eigen::Vector3d away = eye.eye - eye.target;
   const double distance = away.stableNorm();
   if (!(distance > 0) || !std::isfinite(distance))
@@ -64,6 +66,7 @@ Eigen::Matrix4d view_projection(const Eye& eye, double aspect, double near, doub
   if (eye.ortho_height > 0) {
     const double half = eye.ortho_height / 2;
     projection(0, 0) = 1 / (half * aspect);
+    projection(0, 3) = 2 * eye.aside / aspect;
     projection(1, 1) = 1 / half;
     projection(2, 2) = -2 / (far - near);
     projection(2, 3) = -(far + near) / (far - near);
@@ -72,6 +75,7 @@ Eigen::Matrix4d view_projection(const Eye& eye, double aspect, double near, doub
   }
   const double focal = 1 / std::tan(eye.field_of_view / 2);
   projection(0, 0) = focal / aspect;
+  projection(0, 2) = -2 * eye.aside / aspect;
   projection(1, 1) = focal;
   projection(2, 2) = -(far + near) / (far - near);
   projection(2, 3) = -2 * far * near / (far - near);

@@ -58,8 +58,9 @@ std::optional<Vector2f> seen_at(const Eigen::Vector3d& p_W, const Eye& eye,
   const double pixels = eye.ortho_height > 0
                             ? picture.y() / eye.ortho_height
                             : 0.5 * picture.y() / std::tan(eye.field_of_view / 2) / -p.z();
-  const Vector2f at(static_cast<float>(0.5 * picture.x() + pixels * p.x()),
-                    static_cast<float>(0.5 * picture.y() - pixels * p.y()));
+  const Vector2f at(
+      static_cast<float>(0.5 * picture.x() + eye.aside * picture.y() + pixels * p.x()),
+      static_cast<float>(0.5 * picture.y() - pixels * p.y()));
   if ((at.array() < 0).any() || (at.array() > picture.array()).any()) return {};
   return at;
 }

@@ -101,7 +101,8 @@ std::optional<Picked> pick(const Scene& scene, const Eye& eye, const PicturePlac
   if (!(place.width > 0 && place.height > 0 && std::isfinite(place.width + place.height)))
     fail("picture: its size must be > 0, got {} x {}", place.width, place.height);
   const Eigen::Matrix3d axes = view_axes(eye);
-  const double x = (2 * place.x - place.width) / place.height, y = 1 - 2 * place.y / place.height;
+  const double x = (2 * place.x - place.width) / place.height - 2 * eye.aside,
+               y = 1 - 2 * place.y / place.height;
   const bool flat = eye.ortho_height > 0;
   const double half = flat ? eye.ortho_height / 2 : std::tan(eye.field_of_view / 2);
   const Eigen::Vector3d aside = half * (x * axes.col(0) + y * axes.col(1));

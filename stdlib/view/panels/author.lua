@@ -2,6 +2,7 @@
 local edit = require "clench.view.edit"
 local frames = require "clench.view.frames"
 local replay = require "clench.view.replay"
+local stereo = require "clench.view.stereo"
 local units = require "clench.view.units"
 
 local gray, orange = {0.5, 0.5, 0.5}, {0.84, 0.37, 0}
@@ -32,8 +33,10 @@ local function draw_frames(view, ui, state)
   heading(ui, "Frames", "The pose of a grasp is that of the hand's base in the object's frame.")
   state.frames = ui:checkbox("show frames", state.frames ~= false)
   if state.frames then
-    frames.draw(view, ui, replay.shown(view, object).pose, object.name)
-    frames.draw(view, ui, replay.shown(view, hand).pose, hand.name)
+    stereo.over(view, ui, function()
+      frames.draw(view, ui, replay.shown(view, object).pose, object.name)
+      frames.draw(view, ui, replay.shown(view, hand).pose, hand.name)
+    end)
   end
   local pose = place_of(session).pose
   local p, angles = pose.position, pose.rpy

@@ -3,6 +3,7 @@ local camera = require "clench.view.camera"
 local edit = require "clench.view.edit"
 local forces = require "clench.view.panels.forces"
 local routes = require "clench.view.tendon_routes"
+local stereo = require "clench.view.stereo"
 local units = require "clench.view.units"
 
 local gray, blue, orange = {0.5, 0.5, 0.5}, {0, 0.45, 0.7, 1}, {0.9, 0.6, 0, 1}
@@ -55,7 +56,7 @@ local function draw(ui, view)
   view.tendons = view.tendons or {shows = true, pulls = {}}
   local state = view.tendons
   state.shows = ui:checkbox("show", state.shows)
-  if state.shows then draw_lines(view, ui, tendons, state.chosen) end
+  if state.shows then stereo.over(view, ui, function() draw_lines(view, ui, tendons, state.chosen) end) end
   ui:table("tendons", {"tendon", "excursion", "passive [N]", "pull [N]"}, {}, function(ui)
     for _, tendon in ipairs(tendons) do draw_row(view, ui, state, tendon) end
   end)

@@ -1,6 +1,7 @@
 --- Virtual contacts of the current hand: marks in the picture, and buttons that find, mark, load and save them.
 local camera = require "clench.view.camera"
 local dialog = require "clench.view.dialog"
+local stereo = require "clench.view.stereo"
 
 local green = {0, 0.62, 0.45, 1}
 
@@ -30,7 +31,7 @@ local function draw(ui, view)
   ui:text(("%d on %s, %s"):format(#contacts, hand.name, hand.has_own_virtual_contacts and "of a file or the user" or "found on its surface"))
   local on, changed = ui:checkbox("show", view.shows_virtual ~= false)
   if changed then view.shows_virtual = on end
-  if view.shows_virtual ~= false then draw_marks(ui, view, contacts) end
+  if view.shows_virtual ~= false then stereo.over(view, ui, function() draw_marks(ui, view, contacts) end) end
   button(ui, view, "Find", "grasp.find_virtual")
   ui:same_line()
   button(ui, view, "Mark Contacts", "grasp.mark_virtual")

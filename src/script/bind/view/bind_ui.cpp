@@ -56,6 +56,20 @@ int ui_frame(lua_State* L) {
   return 0;
 }
 
+ScenePane read_pane(Table& options) {
+  using Part = ScenePane::Part;
+  using Channels = std::array<bool, 3>;
+  ScenePane pane;
+  pane.part = options.choice(
+      "part", {{"all", Part::all}, {"left", Part::left}, {"right", Part::right}}, Part::all);
+  pane.channels = options.choice("channels",
+                                 {{"all", Channels{true, true, true}},
+                                  {"red", Channels{true, false, false}},
+                                  {"cyan", Channels{false, true, true}}},
+                                 Channels{true, true, true});
+  return pane;
+}
+
 int ui_show(lua_State* L) {
   Gui& gui = framed_gui(L);
   const World* world = check_object<WorldHandle>(L, 2, "world").world.get();
@@ -68,12 +82,14 @@ int ui_show(lua_State* L) {
     eye.up = options.vec3("up", eye.up);
     eye.field_of_view = options.number("field_of_view", eye.field_of_view);
     eye.ortho_height = options.number("orthographic", 0);
+    eye.aside = options.number("aside", 0);
   }
+  const ScenePane pane = read_pane(options);
   Scene scene = read_scene(L, options, {&world, 1});
   options.done();
   if (!given) eye = gui.frame_all(scene);
   scene.eye = eye;
-  gui.show(scene, eye, {});
+  gui.show(scene, eye, {}, pane);
   return 0;
 }
 
@@ -195,6 +211,7 @@ int ui_keep_open(lua_State* L) { return open_gui(L).close_handled(), 0; }
 int get_wants_mouse(lua_State* L) { return push(L, open_gui(L).wants_mouse()); }
 int get_wants_text(lua_State* L) { return push(L, open_gui(L).wants_text()); }
 int get_close_requested(lua_State* L) { return push(L, open_gui(L).close_requested()); }
+int get_renderer(lua_State* L) { return push(L, open_gui(L).renderer()); }
 int get_line_height(lua_State* L) { return push(L, framed_gui(L).line_height()); }
 int ui_text_of(lua_State* L) {
   const auto& handle = self<UiHandle>(L);
@@ -253,6 +270,10 @@ Is text being typed into a widget?
 Has the user asked to close the window?
 @type boolean
 > ui.close_requested  --> false)"},
+    {"renderer", guarded<get_renderer>, R"(
+Name of the OpenGL renderer, which differs where pictures may differ.
+@type string
+> #ui.renderer > 0  --> true)"},
     {"line_height", guarded<get_line_height>, R"(
 Height of a row of widgets.
 @type number [pixels]
@@ -277,10 +298,14 @@ Draws a world behind the panels, as a draft of clench.render.
 @option up? vec3 = {0, 0, 1}  direction that is up in the picture
 @option field_of_view? number [rad, > 0]  vertical
 @option orthographic? number [m, > 0]  height that is shown
+@option aside? number = 0  shift of what is seen to the right, as a fraction of the height
+@option part? "all"|"left"|"right" = "all"  the screen or half of it
+@option channels? "all"|"red"|"cyan" = "all"  the colors that are drawn
 @like clench.render  frame, contacts, cones, cone_height, patches, approach, ground, transparent_objects, file_colors, forces, force_scale, arrows
 @effect edits
 > ui:frame(0.01, function(ui) ui:show(world) end)
-> ui:show(world)  --> error: expected a call within ui:frame)"},
+> ui:show(world)  --> error: expected a call within ui:frame
+> ui:frame(0.01, function(ui) ui:show(world, {part = "top"}) end)  --> error: part)"},
     {"read", guarded<ui_read>, R"(
 The pixels of the last frame.
 @return picture

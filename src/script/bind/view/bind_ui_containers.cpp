@@ -72,6 +72,13 @@ int ui_disabled(lua_State* L) {
 int ui_id(lua_State* L) { return framed_gui(L).id(check_string(L, 2, "id"), BodyOf(L, 3)), 0; }
 int ui_group(lua_State* L) { return framed_gui(L).group(BodyOf(L, 2)), 0; }
 
+int ui_clip(lua_State* L) {
+  Gui& gui = framed_gui(L);
+  const GuiRect rect{check_number(L, 2, "x"), check_number(L, 3, "y"), check_number(L, 4, "width"),
+                     check_number(L, 5, "height")};
+  return gui.clip(rect, BodyOf(L, 6)), 0;
+}
+
 int ui_tabs(lua_State* L) {
   Gui& gui = framed_gui(L);
   const std::string name = check_string(L, 2, "id");
@@ -221,6 +228,16 @@ A scope for labels: those of its widgets may equal labels outside it.
 @effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:id("a", function() ui:button "go" end) ui:id("b", function() ui:button "go" end) end) end)
 > #ui.items  --> 3)"},
+    {"clip", guarded<ui_clip>, R"(
+Restricts lines, circles and labels over the picture to a rectangle.
+@param x number [pixels]  of its upper left corner
+@param y number [pixels]  of its upper left corner
+@param width number [pixels]  of the rectangle
+@param height number [pixels]  of the rectangle
+@param draw fun(ui: ui)  draws them
+@effect edits
+> ui:frame(0.01, function(ui) ui:clip(0, 0, 10, 10, function(ui) ui:circle(10, 10, 5) end) end)
+> ui:clip(0, 0, 9, 9, print)  --> error: expected a call within ui:frame)"},
     {"group", guarded<ui_group>, R"(
 Widgets laid out as one.
 @param draw fun(ui: ui)  describes the widgets
