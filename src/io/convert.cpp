@@ -6,9 +6,9 @@
 #include "clench/io/grasp_files.h"
 #include "clench/io/graspit/eigengrasps.h"
 #include "clench/io/graspit/virtual_contacts.h"
-#include "clench/io/read.h"
-#include "clench/io/write_body.h"
-#include "clench/io/write_robot.h"
+#include "clench/io/read/read.h"
+#include "clench/io/write/write_body.h"
+#include "clench/io/write/write_robot.h"
 
 namespace clench {
 

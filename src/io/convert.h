@@ -5,7 +5,7 @@
 
 #include "clench/io/text/file_kind.h"
 #include "clench/io/text/find_file.h"
-#include "clench/io/write_world.h"
+#include "clench/io/write/write_world.h"
 
 namespace clench {
 

@@ -12,7 +12,7 @@
 #include "bench/report.h"
 #include "clench/dynamics/control/closing.h"
 #include "clench/dynamics/stepper.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/model/build.h"
 #include "support/shared.h"
 

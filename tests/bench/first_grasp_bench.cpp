@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "clench/grasp/wrench/grasp.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/model/build.h"
 #include "clench/motion/drive.h"
 

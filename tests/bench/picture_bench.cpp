@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/model/build.h"
 #include "clench/motion/drive.h"
 #include "clench/render/render.h"

@@ -9,7 +9,7 @@
 
 #include "bench/peer_step.h"
 #include "bench/report.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/model/build.h"
 #include "clench/planning/energy/contact_energy.h"
 #include "clench/planning/search/run_together.h"

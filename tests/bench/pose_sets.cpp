@@ -5,7 +5,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/random.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/model/build.h"
 #include "support/meshes.h"
 

@@ -16,7 +16,7 @@
 #include "clench/base/error.h"
 #include "clench/geometry/mesh/hull.h"
 #include "clench/grasp/wrench/grasp.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/model/build.h"
 #include "clench/motion/drive.h"
 #include "grasp/wrench_sets.h"

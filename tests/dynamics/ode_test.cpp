@@ -4,7 +4,7 @@
 #include "clench/dynamics/control/closing.h"
 #include "clench/dynamics/mechanics.h"
 #include "clench/dynamics/stepper.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/model/build.h"
 #include "support/robots.h"
 

@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "clench/base/error.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 
 namespace clench::fuzz {
 

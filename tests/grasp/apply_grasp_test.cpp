@@ -6,7 +6,7 @@
 #include "clench/base/error.h"
 #include "clench/base/random.h"
 #include "clench/grasp/wrench/grasp.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/model/build.h"
 #include "clench/motion/drive.h"
 #include "support/meshes.h"

@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "clench/base/error.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/model/dof.h"
 #include "support/folder.h"
 #include "support/listening.h"

@@ -4,7 +4,7 @@
 #include "clench/base/random.h"
 #include "clench/grasp/force/contact_forces.h"
 #include "clench/grasp/force/link_weight.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "support/chains.h"
 #include "support/robots.h"
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "clench/base/error.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "grasp/held_object.h"
 
 using namespace clench;

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "bad_files.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "temporary.h"
 
 using namespace clench;

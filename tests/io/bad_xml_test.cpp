@@ -1,7 +1,7 @@
 // Every file of tests/data/bad/xml/ is rejected with the message in the file next to it. The file
 // name begins with its kind: body, robot or world.
 #include "bad_files.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 
 using namespace clench;
 using clench::test::check_bad_files;

@@ -8,7 +8,7 @@
 #include "clench/base/error.h"
 #include "clench/base/text.h"
 #include "clench/io/graspit/inventor_primitives.h"
-#include "clench/io/write_world.h"
+#include "clench/io/write/write_world.h"
 #include "read_any.h"
 #include "support/meshes.h"
 #include "temporary.h"

@@ -1,6 +1,6 @@
 #include "clench/base/error.h"
 #include "clench/base/text.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "support/plain_user.h"
 #include "temporary.h"
 

@@ -1,7 +1,7 @@
 // Guesses of how hands approach, compared with files that specify it, and of how fast they close.
 #include <map>
 
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/io/tree/closing_choice.h"
 #include "clench/spec/approach_guess.h"
 #include "support/cases.h"

@@ -2,7 +2,7 @@
 // give an error, or a body without the hostile part.
 #include "clench/base/error.h"
 #include "clench/base/text.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "temporary.h"
 
 using namespace clench;

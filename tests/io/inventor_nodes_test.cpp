@@ -1,6 +1,6 @@
 // Effects of single nodes of Inventor and VRML on triangles.
 #include "clench/base/error.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "temporary.h"
 
 using namespace clench;

@@ -1,5 +1,5 @@
 #include "clench/base/error.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "temporary.h"
 
 using namespace clench;

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "clench/base/error.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "support/listening.h"
 #include "temporary.h"
 

@@ -1,6 +1,6 @@
 // Fields that a node type does not have, and features of Inventor 1 files.
 #include "clench/base/error.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "support/shared.h"
 #include "temporary.h"
 

@@ -3,7 +3,7 @@
 #include "clench/io/graspit/eigengrasps.h"
 #include "clench/io/graspit/glove_files.h"
 #include "clench/io/graspit/virtual_contacts.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/io/text/file_kind.h"
 #include "temporary.h"
 

@@ -1,7 +1,7 @@
 // MJCF scenes as worlds.
 #include "clench/base/error.h"
 #include "clench/base/random.h"
-#include "clench/io/write_mjcf.h"
+#include "clench/io/write/write_mjcf.h"
 #include "support/listening.h"
 #include "support/meshes.h"
 #include "temporary.h"
@@ -455,11 +455,14 @@ TEST_CASE("settings of MuJoCo's solver are reported unless they are those that a
   CHECK(ours.world.contact_threshold == 0.0002);
   // stiffness for another time step
   const auto other = told("0.001", stiff, "cone='pyramidal' impratio='1' integrator='RK4'");
-  CHECK(other.warned("attributes of <geom> that are not used, here and further on: margin, solimp, solref"));
-  CHECK(other.warned("attributes of <option> that are not used, here and further on: cone, impratio, integrator"));
+  CHECK(other.warned(
+      "attributes of <geom> that are not used, here and further on: margin, solimp, solref"));
+  CHECK(other.warned(
+      "attributes of <option> that are not used, here and further on: cone, impratio, integrator"));
   CHECK(!other.world.contact_threshold);
   CHECK(told("0.002", "margin='1' solref='0.008 1' solimp='0.95 0.99 0.0001'", "")
-            .warned("attributes of <geom> that are not used, here and further on: margin, solimp, solref"));
+            .warned("attributes of <geom> that are not used, here and further on: margin, solimp, "
+                    "solref"));
 }
 
 TEST_CASE("a scene's time step is the world's") {

@@ -1,7 +1,7 @@
 #include <numbers>
 
 #include "clench/base/error.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "support/chains.h"
 #include "support/listening.h"
 #include "temporary.h"

@@ -3,7 +3,7 @@
 #include "clench/base/error.h"
 #include "clench/base/random.h"
 #include "clench/base/text.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "support/mutate.h"
 #include "temporary.h"
 

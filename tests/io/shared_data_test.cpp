@@ -4,7 +4,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/text.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "files_below.h"
 #include "support/measured.h"
 #include "support/shared.h"

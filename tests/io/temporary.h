@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "support/folder.h"
 #include "support/listening.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <doctest/doctest.h>
 
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "support/chains.h"
 #include "support/listening.h"
 

@@ -4,7 +4,7 @@
 
 #include "clench/base/random.h"
 #include "clench/base/text.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/spec/check_robot.h"
 #include "support/mutate.h"
 #include "temporary.h"

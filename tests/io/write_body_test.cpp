@@ -1,4 +1,4 @@
-#include "clench/io/write_body.h"
+#include "clench/io/write/write_body.h"
 
 #include <limits>
 

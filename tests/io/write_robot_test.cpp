@@ -1,4 +1,4 @@
-#include "clench/io/write_robot.h"
+#include "clench/io/write/write_robot.h"
 
 #include <algorithm>
 #include <fstream>
@@ -7,7 +7,7 @@
 #include "clench/base/error.h"
 #include "clench/base/file.h"
 #include "clench/base/text.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "files_below.h"
 #include "robot_compare.h"
 #include "support/chains.h"

@@ -1,4 +1,4 @@
-#include "clench/io/write_world.h"
+#include "clench/io/write/write_world.h"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 #include "clench/base/random.h"
 #include "clench/base/text.h"
 #include "clench/io/graspit/world_parts.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "support/listening.h"
 #include "support/meshes.h"
 #include "support/plain_user.h"

@@ -2,8 +2,8 @@
 #pragma once
 #include <algorithm>
 
-#include "clench/io/read.h"
-#include "clench/io/write_robot.h"
+#include "clench/io/read/read.h"
+#include "clench/io/write/write_robot.h"
 #include "support/listening.h"
 
 namespace clench::test {

@@ -2,7 +2,7 @@
 // names the file, never a crash or a hang.
 #include "clench/base/error.h"
 #include "clench/base/random.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "support/mutate.h"
 #include "temporary.h"
 

@@ -2,7 +2,7 @@
 
 #include "clench/base/error.h"
 #include "clench/base/random.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "support/measured.h"
 #include "support/robots.h"
 #include "support/shared.h"

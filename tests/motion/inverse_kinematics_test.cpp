@@ -1,7 +1,7 @@
 #include "clench/motion/inverse_kinematics.h"
 
 #include "clench/base/error.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/model/build.h"
 #include "clench/model/jacobian.h"
 #include "support/robots.h"

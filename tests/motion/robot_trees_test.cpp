@@ -8,8 +8,8 @@
 
 #include "clench/base/random.h"
 #include "clench/base/text.h"
-#include "clench/io/read.h"
-#include "clench/io/write_robot.h"
+#include "clench/io/read/read.h"
+#include "clench/io/write/write_robot.h"
 #include "clench/model/build.h"
 #include "clench/motion/drive.h"
 #include "io/temporary.h"

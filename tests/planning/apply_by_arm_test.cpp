@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "clench/base/error.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/model/build.h"
 #include "clench/motion/drive.h"
 

@@ -1,6 +1,6 @@
 // A shipped hand and an object, for tests of planning.
 #pragma once
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/model/build.h"
 #include "clench/planning/space/search_space.h"
 

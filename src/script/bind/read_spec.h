@@ -1,6 +1,6 @@
 // Bodies and robots that a script names by file or makes from tables.
 #pragma once
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/script/lua/table.h"
 
 namespace clench {

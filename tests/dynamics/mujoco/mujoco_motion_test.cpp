@@ -8,7 +8,7 @@
 
 #include "clench/base/random.h"
 #include "clench/dynamics/stepper.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/model/build.h"
 #include "support/cases.h"
 #include "support/folder.h"

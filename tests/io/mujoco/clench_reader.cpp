@@ -2,7 +2,7 @@
 
 #include "clench/base/error.h"
 #include "clench/io/mjcf/mjcf_model.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "support/listening.h"
 
 namespace clench::test {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "clench/base/error.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "support/folder.h"
 #include "support/listening.h"
 

@@ -9,7 +9,7 @@
 
 #include "../temporary.h"
 #include "clench/base/random.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/model/world.h"
 #include "support/listening.h"
 #include "support/mujoco.h"

@@ -4,7 +4,7 @@
 
 #include "clench/base/random.h"
 #include "clench/contact/materials.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "support/folder.h"
 #include "support/mujoco.h"
 

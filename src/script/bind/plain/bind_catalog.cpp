@@ -4,7 +4,7 @@
 #include <system_error>
 #include <vector>
 
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/io/text/confine.h"
 #include "clench/io/text/file_kind.h"
 #include "clench/script/bind/plain/plain.h"

@@ -3,7 +3,7 @@
 #include <lua.hpp>
 
 #include "clench/io/mjcf_write/written_scene.h"
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 #include "clench/script/bind/handles.h"
 
 namespace clench {

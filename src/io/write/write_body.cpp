@@ -1,4 +1,4 @@
-#include "clench/io/write_body.h"
+#include "clench/io/write/write_body.h"
 
 #include <fmt/ranges.h>
 
@@ -12,7 +12,7 @@
 #include "clench/io/graspit/world_parts.h"
 #include "clench/io/mesh/mesh_files.h"
 #include "clench/io/mesh/write_mesh.h"
-#include "clench/io/saved_files.h"
+#include "clench/io/write/saved_files.h"
 #include "clench/spec/material_names.h"
 
 namespace clench {

@@ -2,7 +2,7 @@
 
 #include "clench/base/units.h"
 #include "clench/io/graspit/world_parts.h"
-#include "clench/io/write_text_worlds.h"
+#include "clench/io/write/write_text_worlds.h"
 #include "clench/spec/material_names.h"
 
 namespace clench {

@@ -1,4 +1,4 @@
-#include "clench/io/tree_files.h"
+#include "clench/io/read/tree_files.h"
 
 #include "clench/base/text.h"
 #include "clench/io/mjcf/mjcf.h"

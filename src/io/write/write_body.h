@@ -1,6 +1,6 @@
 // Writes bodies to files: the counterpart of read_body.
 #pragma once
-#include "clench/io/write_world.h"
+#include "clench/io/write/write_world.h"
 
 namespace clench {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "clench/io/saved_files.h"
+#include "clench/io/write/saved_files.h"
 #include "clench/spec/world_spec.h"
 
 namespace clench {

@@ -1,7 +1,7 @@
 // Writes properties that URDF has no elements for as the element <clench>, which urdf/urdf_clench
 // reads.
 #pragma once
-#include "clench/io/urdf_plan.h"
+#include "clench/io/write/urdf_plan.h"
 
 namespace clench {
 

@@ -1,7 +1,7 @@
 // Writes worlds as MJCF scenes: the scene file, and its meshes next to it.
 #pragma once
 #include "clench/io/mjcf_write/written_scene.h"
-#include "clench/io/write_world.h"
+#include "clench/io/write/write_world.h"
 
 namespace clench {
 

@@ -8,7 +8,7 @@
 
 #include "clench/base/file.h"
 #include "clench/io/graspit/virtual_contacts.h"
-#include "clench/io/write_world.h"
+#include "clench/io/write/write_world.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "clench/io/write_mjcf.h"
+#include "clench/io/write/write_mjcf.h"
 
 #include <cctype>
 

@@ -1,8 +1,8 @@
-#include "clench/io/write_world.h"
+#include "clench/io/write/write_world.h"
 
 #include "clench/base/file.h"
 #include "clench/base/text.h"
-#include "clench/io/write_text_worlds.h"
+#include "clench/io/write/write_text_worlds.h"
 
 namespace clench {
 

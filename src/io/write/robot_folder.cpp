@@ -1,4 +1,4 @@
-#include "clench/io/robot_folder.h"
+#include "clench/io/write/robot_folder.h"
 
 #include <algorithm>
 #include <cctype>

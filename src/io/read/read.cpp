@@ -1,4 +1,4 @@
-#include "clench/io/read.h"
+#include "clench/io/read/read.h"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 #include "clench/base/text.h"
 #include "clench/io/graspit/graspit_readers.h"
 #include "clench/io/graspit/robot_files.h"
-#include "clench/io/load.h"
 #include "clench/io/mjcf/mjcf.h"
+#include "clench/io/read/load.h"
+#include "clench/io/read/tree_files.h"
 #include "clench/io/text/file_errors.h"
 #include "clench/io/text/file_kind.h"
-#include "clench/io/tree_files.h"
 #include "clench/spec/assumed.h"
 #include "clench/spec/plausibility.h"
 

@@ -1,4 +1,4 @@
-#include "clench/io/urdf_plan.h"
+#include "clench/io/write/urdf_plan.h"
 
 #include <algorithm>
 #include <cmath>

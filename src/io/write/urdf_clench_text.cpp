@@ -1,4 +1,4 @@
-#include "clench/io/urdf_clench_text.h"
+#include "clench/io/write/urdf_clench_text.h"
 
 #include <algorithm>
 #include <cmath>

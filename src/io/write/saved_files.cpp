@@ -1,4 +1,4 @@
-#include "clench/io/saved_files.h"
+#include "clench/io/write/saved_files.h"
 
 #include <fmt/ranges.h>
 
@@ -9,8 +9,8 @@
 #include "clench/base/text.h"
 #include "clench/base/units.h"
 #include "clench/io/graspit/world_parts.h"
-#include "clench/io/load.h"
 #include "clench/io/mesh/write_mesh.h"
+#include "clench/io/read/load.h"
 #include "clench/io/text/confine.h"
 #include "clench/io/text/xml.h"
 #include "clench/spec/material_names.h"

@@ -6,7 +6,7 @@
 #include "clench/base/text.h"
 #include "clench/io/graspit/eigengrasps.h"
 #include "clench/io/graspit/virtual_contacts.h"
-#include "clench/io/write_text_worlds.h"
+#include "clench/io/write/write_text_worlds.h"
 
 namespace clench {
 

@@ -1,4 +1,4 @@
-#include "clench/io/load.h"
+#include "clench/io/read/load.h"
 
 #include "clench/base/text.h"
 #include "clench/io/graspit/body_xml.h"
@@ -7,9 +7,9 @@
 #include "clench/io/inventor/inventor_params.h"
 #include "clench/io/inventor/read_geometry.h"
 #include "clench/io/mesh/mesh_files.h"
+#include "clench/io/read/tree_files.h"
 #include "clench/io/text/repair_names.h"
 #include "clench/io/tree/closing_choice.h"
-#include "clench/io/tree_files.h"
 #include "clench/spec/assumed.h"
 #include "clench/spec/plausibility.h"
 

@@ -1,7 +1,7 @@
 #include "clench/base/units.h"
 #include "clench/io/graspit/world_parts.h"
 #include "clench/io/text/xml.h"
-#include "clench/io/write_text_worlds.h"
+#include "clench/io/write/write_text_worlds.h"
 
 namespace clench {
 
