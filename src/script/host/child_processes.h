@@ -10,7 +10,7 @@ int thread_number();
 /// so that a call that waits for them returns. Does nothing where the system does not list them.
 void end_children(int thread);
 
-/// Gives the calling thread a niceness of at least `level`, from 0 to 19: others come first.
+/// Gives the calling thread a niceness of at least `level`, from 0 to 19: others come first. 0 changes nothing.
 void set_thread_nice(int level);
 
 }  // namespace clench
