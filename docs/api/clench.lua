@@ -1062,6 +1062,7 @@ function robot_dynamics:has_closed() end
 ---@field wants_mouse boolean # Is the mouse over a panel?
 ---@field wants_text boolean # Is text being typed into a widget?
 ---@field close_requested boolean # Has the user asked to close the window?
+---@field renderer string # Name of the OpenGL renderer, which differs where pictures may differ.
 ---@field line_height number # Height of a row of widgets.
 local ui = {}
 
@@ -1072,7 +1073,7 @@ function ui:frame(dt, draw) end
 
 ---Draws a world behind the panels, as a draft of clench.render.
 ---@param world world # world to draw
----@param options? {eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: number, frame?: "contacts"|"all", contacts?: boolean, cones?: "apart"|"equal"|"friction"|"force", cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean|number, transparent_objects?: boolean, file_colors?: boolean, forces?: {contact: contact, force: vec3}[], force_scale?: number, arrows?: boolean} # the camera, and what is shown
+---@param options? {eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: number, aside?: number, part?: "all"|"left"|"right", channels?: "all"|"red"|"cyan", frame?: "contacts"|"all", contacts?: boolean, cones?: "apart"|"equal"|"friction"|"force", cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean|number, transparent_objects?: boolean, file_colors?: boolean, forces?: {contact: contact, force: vec3}[], force_scale?: number, arrows?: boolean} # the camera, and what is shown
 function ui:show(world, options) end
 
 ---The pixels of the last frame.
@@ -1333,6 +1334,14 @@ function ui_containers:disabled(disabled, draw) end
 ---@param id string # unique name
 ---@param draw fun(ui: ui) # describes the widgets
 function ui_containers:id(id, draw) end
+
+---Restricts lines, circles and labels over the picture to a rectangle.
+---@param x number # of its upper left corner
+---@param y number # of its upper left corner
+---@param width number # of the rectangle
+---@param height number # of the rectangle
+---@param draw fun(ui: ui) # draws them
+function ui_containers:clip(x, y, width, height, draw) end
 
 ---Widgets laid out as one.
 ---@param draw fun(ui: ui) # describes the widgets
