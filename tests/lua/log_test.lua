@@ -220,7 +220,7 @@ test("in Chromium a recorded run plays in 3-D", function(t)
   local chromium = found:read "l"
   found:close()
   if not chromium then t.skip "chromium is not installed" end
-  local dom = io.popen(("timeout 60 chromium --headless --no-sandbox --disable-gpu-sandbox --use-gl=angle --use-angle=swiftshader "
+  local dom = io.popen(("timeout 300 chromium --headless --no-sandbox --disable-gpu-sandbox --use-gl=angle --use-angle=swiftshader "
     .. "--enable-unsafe-swiftshader --user-data-dir=%s --virtual-time-budget=3000 --dump-dom file://%s.html 2>/dev/null"):format(path, path))
   local text = dom:read "a"
   dom:close()
