@@ -179,7 +179,8 @@ test("what belongs to another world, or is no body at all, is refused", function
   end
   t.fails(function() session:run("world.select", {addresses = {a = "mug"}}) end, "addresses: expected a list, got a table with names")
   t.equal(#session.selection, 0)
-  t.fails(function() session:find(("x"):rep(1e6)) end, "there is no body or robot 'xxx", "xx...'")
+  t.fails(function() session:find(("x"):rep(1000)) end, "there is no body or robot 'xxx", "xx...'")
+  t.fails(function() session:find(("x"):rep(1e6)) end, "session: an address has at most 1000 bytes, got 1000000")
 end)
 
 test("arguments that cannot be logged or counted are refused in a sentence", function(t)

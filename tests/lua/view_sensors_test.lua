@@ -24,7 +24,8 @@ test("the panel Sensors connects a glove, shows its readings, and disconnects it
   t.ok(texts_of(view):find "\nBarrett hand\n")
   local device <close> = clench.devices.simulated.cyberglove {sensors = {20, 60}}
   view:menu "Sensors/Connect Glove…"
-  view.dialogs["sensors.connect_glove"].path = device.path
+  view:frame()
+  view:type(device.path)
   view:click_label "OK"
   local last = loop.time() + 60
   while not session.sensors.glove.reading and loop.time() < last do loop.run(0.01) end
