@@ -136,7 +136,7 @@ test("a recorded run is saved as a film; without one there is nothing to save", 
   local path = os.tmpname() .. ".html"
   view:click_label "Save Film…"
   view:frame()
-  view.dialogs["dynamics.save_film"].path = path
+  view:type(path)
   view:click_label "OK"
   local file <close> = assert(io.open(path))
   t.ok(#file:read "a" > 100000)
