@@ -304,15 +304,21 @@ int map(lua_State* L) {
     task.memory = State::memory_of(L) / copies.size();
     Crew crew(task, std::move(copies), lent.is_lent());
     const Watching watching(L);
+    // passes on stops and pauses, also while outcomes come without a pause
+    const auto follow = [&] {
+      if (watching.progress().stop_asked())
+        crew.end();
+      else
+        watching.progress().tell(static_cast<double>(crew.done()) / static_cast<double>(count),
+                                 subject);
+      crew.pause(State::is_paused(L));
+    };
     for (size_t i = 0; i < count; ++i) {
       const Outcome* outcome = nullptr;
+      follow();
       while (!(outcome = crew.wait(i, std::chrono::milliseconds(20)))) {
-        if (watching.progress().stop_asked()) crew.end();
-        crew.pause(State::is_paused(L));
+        follow();
         if (crew.is_over() && !(outcome = crew.wait(i, {}))) break;
-        if (!watching.progress().stop_asked())
-          watching.progress().tell(static_cast<double>(crew.done()) / static_cast<double>(count),
-                                   subject);
       }
       failed += !outcome || !outcome->failure.words.empty();
       push_outcome(L, outcome);
