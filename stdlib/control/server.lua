@@ -61,7 +61,7 @@ local function refuse_long(client)
   client:finish "a line was too long"
 end
 
--- serves a line of a client; false: there is none
+-- serves a line of a client; false if no line has arrived
 local function serve_line(self, client)
   local line, why = client.port:take_line()
   if line then
@@ -72,7 +72,7 @@ local function serve_line(self, client)
   return line ~= nil
 end
 
--- Serves one line, request or frame of a client; false: there is none. Replies are sent once all that has arrived is answered.
+-- Serves one line, request or frame of a client; false if none has arrived. Replies are sent once all that has arrived is answered.
 local function serve_one(self, client)
   if client.is_closed or client.is_finishing or client.is_held then return false end
   client.gathers = true

@@ -46,7 +46,7 @@ local played = [==[
 <div class="controls" id="bodies"></div>
 ]==]
 
---- What a page may load and do: nothing but what it contains.
+--- The Content-Security-Policy of a page: it loads nothing from elsewhere.
 run.policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
 
 --- A page that plays its frames.

@@ -117,7 +117,7 @@ function Port:fill()
 end
 
 --- Takes a line from the bytes that fill has read, without waiting.
----@return string? line  nil: there is none yet
+---@return string? line  nil if no line has arrived yet
 ---@return string? reason  "too long", as of read_until
 function Port:take_line()
   return without_return(find_delimiter(self, "\n"))

@@ -2,7 +2,7 @@
 --- one eye of a stereoscopic picture has its shift `aside`, as a fraction of the height.
 local camera = {}
 
-local least_distance = 1e-4  -- of eye and target [m]
+local min_distance = 1e-4  -- of eye and target [m]
 
 local function is_vector(x) return clench.type(x) == "vec3" end
 
@@ -80,7 +80,7 @@ end
 --- The camera at a distance from its target that is multiplied by a factor.
 function camera.zoomed(c, factor)
   local offset = c.eye - c.target
-  if offset:norm() * factor < least_distance then return c end
+  if offset:norm() * factor < min_distance then return c end
   local nearer = with_eye(c, c.target + offset * factor)
   if c.orthographic then nearer.orthographic = c.orthographic * factor end
   return nearer

@@ -3,7 +3,7 @@ local script = require "clench.session.script"
 local echo = {}
 
 local longest_line = 300  -- maximum length of a command's Lua [bytes]
-local most_items = 8  -- maximum number of shown items of a list
+local max_items = 8  -- maximum number of shown items of a list
 
 local function name_of(value)
   local kind = clench.type(value)
@@ -17,8 +17,8 @@ local text_of
 
 local function text_of_list(list, depth)
   local parts = {}
-  for i = 1, math.min(#list, most_items) do parts[i] = text_of(list[i], depth + 1) end
-  if #list > most_items then parts[#parts + 1] = ("… %d in all"):format(#list) end
+  for i = 1, math.min(#list, max_items) do parts[i] = text_of(list[i], depth + 1) end
+  if #list > max_items then parts[#parts + 1] = ("… %d in all"):format(#list) end
   return table.concat(parts, ", ")
 end
 

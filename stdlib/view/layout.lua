@@ -14,7 +14,6 @@ local layout = {}
 
 local menu_height, bar_height, status_height = 24, 36, 28  -- at scale 1 [pixels]
 local line_height = 28  -- of widgets at scale 1 [pixels]
-local least_picture = 50  -- width and height of what is left between panels [pixels]
 local tall_share = 0.72  -- fraction of the height of its column
 local user_panels = {}  -- panels that scripts have added, by name and in order
 
@@ -216,7 +215,7 @@ function layout.uncovered(view)
   local edges = edges_of(view, width, height)
   local left, right = edges.left and edges.left.at or 0, edges.right and edges.right.at or width
   local top, bottom = (menu_height + bar_height) * view.scale, edges.bottom and edges.bottom.at or height - status_height * view.scale
-  if right - left < least_picture or bottom - top < least_picture then return 0, 0, width, height end
+  if right - left < splitters.min_picture or bottom - top < splitters.min_picture then return 0, 0, width, height end
   return left, top, right - left, bottom - top
 end
 

@@ -6,7 +6,7 @@ local manipulator = {}
 manipulator.length = 100  -- length of arrows, and radius of rings [pixels]
 local length = manipulator.length
 local gap = 16  -- gap between the center and an arrow [pixels]
-local least_length = 14  -- minimum length of an arrow; shorter ones are seen end-on [pixels]
+local min_length = 14  -- minimum length of an arrow; shorter ones are seen end-on [pixels]
 
 local axes = {{"x", 1, 0, 0}, {"y", 0, 1, 0}, {"z", 0, 0, 1}}
 
@@ -37,7 +37,7 @@ end
 local function arrow(view, name, axis, center, pixel, color)
   local line = handles.project(view, {center + axis * (gap * pixel), center + axis * (length * pixel)})
   if not line then return nil end
-  if (line[3] - line[1]) ^ 2 + (line[4] - line[2]) ^ 2 < least_length ^ 2 then return nil end
+  if (line[3] - line[1]) ^ 2 + (line[4] - line[2]) ^ 2 < min_length ^ 2 then return nil end
   return {name = name, kind = "arrow", axis = axis, center = center, line = line, color = color, head = true,
           x = 0.3 * line[1] + 0.7 * line[3], y = 0.3 * line[2] + 0.7 * line[4]}
 end

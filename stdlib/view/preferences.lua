@@ -74,7 +74,7 @@ local function apply_arrangement(view, said)
   end
   view.bindings = values_of(said.keys, function(value) return value == false or type(value) == "string" and (pcall(keys.codes, value)) end)
   view.front = values_of(said.front, function(value) return type(value) == "string" end)
-  local sizes = values_of(said.sizes, function(value) return type(value) == "number" and value >= splitters.least and value <= 8192 end)
+  local sizes = values_of(said.sizes, function(value) return type(value) == "number" and value >= splitters.min and value <= 8192 end)
   for name in pairs(view.sizes) do view.sizes[name] = sizes[name] or view.sizes[name] end
 end
 

@@ -2,18 +2,18 @@
 local splitters = {}
 
 splitters.default = {left = 264, right = 264, bottom = 190}  -- widths, and a height, at scale 1 [pixels]
-splitters.least = 120  -- of each, at scale 1 [pixels]
+splitters.min = 120  -- of each, at scale 1 [pixels]
 
 local reach = 5  -- of an edge into the picture [pixels]
-local least_picture = 160  -- width and height that stay between the panels [pixels]
+splitters.min_picture = 160  -- width and height that stay between the panels [pixels]
 
 --- A size of the panels, as far as the window has room for it.
 ---@param name "left"|"right"|"bottom"
 ---@return number size  [pixels]
 function splitters.size(view, name)
   local width, height = view.ui.size[1], view.ui.size[2]
-  local most = name == "bottom" and height - least_picture - 120 or (width - least_picture) / 2
-  return math.max(splitters.least * view.scale, math.min(view.sizes[name] * view.scale, most))
+  local max = name == "bottom" and height - splitters.min_picture - 120 or (width - splitters.min_picture) / 2
+  return math.max(splitters.min * view.scale, math.min(view.sizes[name] * view.scale, max))
 end
 
 -- the direction in which the mouse makes the panels larger: of each edge its axis and sign

@@ -6,7 +6,7 @@ local raise = require "clench.raise"
 local stereo = {}
 
 stereo.kinds = {"side by side", "anaglyph"}
-stereo.most = 10  -- maximum distance of the eyes [m]
+stereo.max_distance = 10  -- maximum distance of the eyes [m]
 local share = 1 / 30  -- distance of the eyes by default, as a fraction of the distance from camera to target
 local factor = 1.25  -- by which a key changes it
 
@@ -20,8 +20,8 @@ function stereo.checked(subject, value)
   for _, kind in ipairs(stereo.kinds) do known = known or kind == value.kind end
   if not known then raise(("%s: kind: expected 'side by side' or 'anaglyph', got %s"):format(subject, described(value.kind))) end
   local distance = value.eye_distance
-  if distance ~= nil and not (type(distance) == "number" and distance >= 0 and distance <= stereo.most) then
-    raise(("%s: eye_distance: expected a number from 0 to %g, got %s"):format(subject, stereo.most, described(distance)))
+  if distance ~= nil and not (type(distance) == "number" and distance >= 0 and distance <= stereo.max_distance) then
+    raise(("%s: eye_distance: expected a number from 0 to %g, got %s"):format(subject, stereo.max_distance, described(distance)))
   end
   return value
 end
@@ -116,7 +116,7 @@ end
 
 --- Sets the distance of the eyes [m]; nil: it follows the distance from camera to target.
 function stereo.set_distance(view, distance)
-  view.stereo = {kind = view.stereo.kind, eye_distance = distance and math.max(0, math.min(stereo.most, distance))}
+  view.stereo = {kind = view.stereo.kind, eye_distance = distance and math.max(0, math.min(stereo.max_distance, distance))}
   view.needs_frame = true
 end
 

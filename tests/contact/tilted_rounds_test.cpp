@@ -23,8 +23,8 @@ static ShapePtr round_shape(const Round& round) {
   return Shape::make(std::move(mesh), "solid", {}, rounds);
 }
 
-static constexpr double tilt_threshold = 1e-4, least_gap = 4e-5,
-                        tilt_slack = tilt_threshold - least_gap;
+static constexpr double tilt_threshold = 1e-4, min_gap = 4e-5,
+                        tilt_slack = tilt_threshold - min_gap;
 // contacts closer than this count as one [m]
 static constexpr double merged = 2e-4;
 
@@ -95,7 +95,7 @@ static double length_near(double stick_length, double drop) {
 // A solid above the plane z = 0 whose lowest point has the least gap.
 static Pose above_plane(const Round& round, const Eigen::Quaterniond& turn) {
   const double reach = -(turn * support(round, turn.conjugate() * -Vector3d::UnitZ())).z();
-  return {turn, {0.013, 0.007, reach + least_gap}};
+  return {turn, {0.013, 0.007, reach + min_gap}};
 }
 
 static ShapePtr plane_slab() {
@@ -135,18 +135,18 @@ TEST_CASE("the shared length of sticks side by side shrinks as they tilt or cros
   for (const Round& a : sticks)
     for (const Round& b : sticks) {
       const auto first = round_shape(a), second = round_shape(b);
-      const double away = 2 * stick_radius + least_gap;
+      const double away = 2 * stick_radius + min_gap;
       const double last = 4.5 * tilt_slack / stick_length;
       // tilted in the plane of both axes: the lower end keeps its gap
       sweep_tilt(
           last, steps, slope_of_tilt * last / steps, Vector3d::UnitZ(),
           [&](double angle) {
             const double lift = stick_radius / std::cos(angle) + stick_radius +
-                                least_gap / std::cos(angle) + stick_length / 2 * std::tan(angle);
+                                min_gap / std::cos(angle) + stick_length / 2 * std::tan(angle);
             Pose X{about(Vector3d::UnitY(), angle), {lift, 0, 0}};
             // moved to the least gap along x
             for (int i = 0; i < 20; ++i)
-              X.position.x() -= gap_between({a, {}}, {b, X}).gap - least_gap;
+              X.position.x() -= gap_between({a, {}}, {b, X}).gap - min_gap;
             return contact_points(*first, *second, X);
           },
           [&](double angle) { return length_near(stick_length, stick_length * std::sin(angle)); });
@@ -195,7 +195,7 @@ TEST_CASE("the shared cap of two cans shrinks as one tilts, continuously") {
       const double angle = 1e-7 + last * i / steps;
       Pose X{about(Vector3d::UnitX(), angle), {aside, 0, 0.08}};
       for (int k = 0; k < 20; ++k)
-        X.position.z() -= gap_between({low, {}}, {high, X}).gap - least_gap;
+        X.position.z() -= gap_between({low, {}}, {high, X}).gap - min_gap;
       const auto points = contact_points(*a, *b, X);
       REQUIRE(!points.empty());
       if (i > 0)
@@ -213,7 +213,7 @@ TEST_CASE("a stick on the edge of a box keeps its near part as it turns across t
     const auto stick = round_shape(round);
     // the stick lies along the edge x = 0.5, above it at 40 degrees
     const Vector3d up(std::sin(outward), 0, std::cos(outward));
-    const double away = stick_radius + least_gap;
+    const double away = stick_radius + min_gap;
     const double reach = std::sqrt(std::pow(stick_radius + tilt_threshold, 2) - away * away);
     const double widest = 4.5 * 2 * reach / stick_length;
     constexpr int steps = 2000;

@@ -119,7 +119,7 @@ static void push_item(lua_State* L, int list, int item) {
   lua_rawgeti(L, list, item);
 }
 
-// the smallest, so that messages do not depend on the order of a hash table; "" is none yet
+// the smallest, so that messages do not depend on the order of a hash table; "" if no text was kept yet
 static void keep_least(std::string& least, std::string text) {
   if (least.empty() || text < least) least = std::move(text);
 }

@@ -26,7 +26,7 @@ function commands.prepare(server)
   return session:subscribe("changed", function() server.edits = server.edits + 1 end)
 end
 
---- The command of a method; nil: there is none.
+--- The command of a method; nil if there is no such command.
 function commands.find(session, name)
   if name:find "^control%." then return nil end
   return session.commands[name]

@@ -35,7 +35,7 @@ function methods.is_long(session, name)
   return command and commands.is_long(command) or false
 end
 
---- The description of a method; nil: there is none.
+--- The description of a method; nil if there is no such method.
 ---@return {name: string, text: string, parameters: table[], reads: boolean, long: boolean, command: boolean}?
 function methods.describe(session, name)
   local entry = own[name] or commands.find(session, name)

@@ -46,7 +46,7 @@ local function make_page(server)
   return job:result()
 end
 
--- what the page may load and do, and who may show it in a frame: nobody where no token protects its controls
+-- the Content-Security-Policy of the page; no other page may show it in a frame if no token protects its controls
 local function policy_of(server, host)
   return ("Content-Security-Policy: %s; connect-src 'self' ws://%s wss://%s%s\r\n"):format(run.policy, host, host, server.token and "" or "; frame-ancestors 'none'")
 end

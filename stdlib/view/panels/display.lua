@@ -28,7 +28,7 @@ local function draw_stereo(ui, view)
   local factor, unit, format = units.of(view, "m")
   ui:width(120 * view.scale)
   local distance = edit.number(view, ui, ("eye distance [%s]"):format(unit), "eye distance", stereo.eye_distance(view) * factor,
-                               {speed = 0.0005 * factor, min = 0, max = stereo.most * factor, format = format})
+                               {speed = 0.0005 * factor, min = 0, max = stereo.max_distance * factor, format = format})
   if distance then stereo.set_distance(view, distance / factor) end
   ui:tooltip "Keys + and - change it."
   if ui:button("Automatic", {selected = not view.stereo.eye_distance}) then stereo.set_distance(view, nil) end

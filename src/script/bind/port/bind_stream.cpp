@@ -263,9 +263,9 @@ static std::filesystem::path through_link(const std::filesystem::path& path) {
 // canonical(path): the absolute path with all links replaced, also dangling ones
 int canonical_path(lua_State* L) {
   const std::string path = check_string(L, 1, "path");
-  constexpr int most_links = 40;
+  constexpr int max_links = 40;
   std::filesystem::path next = path;
-  for (int i = 0; i < most_links; ++i) {
+  for (int i = 0; i < max_links; ++i) {
     std::error_code code;
     const auto found = std::filesystem::weakly_canonical(next, code);
     if (code) fail(ErrorKind::file, "{}: {}", path, code.message());

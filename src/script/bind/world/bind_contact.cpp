@@ -178,7 +178,7 @@ static const Entry contact_methods[] = {
 The patch of a soft contact, fitted with other options; nil for other kinds.
 @param options? table  where and how the surface is fitted
 @option radius? number [m, > 0]  how far around the contact, by default 0.4 m / cbrt(larger modulus in Pa), and 5 mm where that is not between 3 and 10 mm, an error where there is nothing to fit
-@option max_radius? number [m, > 0] = 0.02  stands for a relative radius that is none
+@option max_radius? number [m, > 0] = 0.02  relative radius of surfaces that are flat, nearly flat, or fit each other
 @option fit? "quadric"|"jet" = "quadric"  quadric: our own; jet: CGAL's
 @return patch?
 @effect reads
