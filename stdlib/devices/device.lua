@@ -3,11 +3,8 @@ local described = require "clench.described"
 local raise = require "clench.raise"
 local device = {}
 
---- The port of a driver: a path, which is opened as a serial line, or a port.
----@param subject string  "devices.barrett"
----@param given any
----@param baud integer
-function device.port_of(subject, given, baud)
+-- the port of a driver: a path, which is opened as a serial line, or a port
+local function port_of(subject, given, baud)
   if type(given) == "string" then return clench.port.serial {path = given, baud = baud} end
   local meta = debug.getmetatable(given)
   if type(given) ~= "table" or not meta or meta.__name ~= "port" then
@@ -16,11 +13,48 @@ function device.port_of(subject, given, baud)
   return given
 end
 
---- Raises an error because a port has ended, or because there was no answer.
+--- Adds to a driver the fields that all have, from the options of its caller, and opens its port.
+---@param subject string  "devices.barrett"
+---@param o table  options, of which all others have been read
+---@param driver table
+function device.new(subject, o, driver)
+  local given, baud = o:raw "port", o:get "baud"
+  driver.subject, driver.timeout, driver.attempts = subject, o:get "timeout", o:get "attempts"
+  o:done()
+  driver.port, driver.owns_port = port_of(subject, given, baud), type(given) == "string"
+  return driver
+end
+
+--- Closes the port if the driver has opened it.
+function device.close(driver)
+  if driver.owns_port then driver.port:close() end
+end
+
+--- Raises an error because the port has ended, or because there was no answer.
 ---@param why string  "closed", "unplugged" or "timeout"
-function device.fail(subject, port, why, doing)
-  if why == "timeout" then raise(("%s: no valid answer from %s: %s"):format(subject, port.name, doing), "limit") end
-  raise(("%s: %s is %s"):format(subject, port.name, why), "stale")
+---@param doing string  for the message: "reading registers"
+function device.fail(driver, why, doing)
+  local subject, name = driver.subject, driver.port.name
+  if why == "timeout" then raise(("%s: no valid answer from %s: %s"):format(subject, name, doing), "limit") end
+  raise(("%s: %s is %s"):format(subject, name, why), "stale")
+end
+
+--- Raises an error if the reason for a failure is that the port has ended.
+---@param why? string  as returned by port:read
+function device.check_lost(driver, why)
+  if why == "closed" or why == "unplugged" then device.fail(driver, why) end
+end
+
+--- Repeats an exchange until it succeeds, at most `driver.attempts` times; raises an error if it never does.
+---@param doing string  for the message
+---@param exchange fun(driver: table, ...): any?, string?  the answer; or nil and the reason, as returned by port:read
+function device.ask(driver, doing, exchange, ...)
+  for _ = 1, driver.attempts do
+    local answer, why = exchange(driver, ...)
+    if answer ~= nil then return answer end
+    device.check_lost(driver, why)
+  end
+  device.fail(driver, "timeout", doing)
 end
 
 --- Checks numbers before they are sent.

@@ -22,7 +22,7 @@ function gripper.wait_for(self, doing, read, condition)
   while true do
     local state = read(self)
     if condition(state) then return state end
-    if loop.time() > last then device.fail(self.subject, self.port, "timeout", doing) end
+    if loop.time() > last then device.fail(self, "timeout", doing) end
     loop.sleep(self.poll)
   end
 end
@@ -51,22 +51,17 @@ function gripper.complete(class)
   --- Stops the fingers and closes the port.
   function class:close()
     device.send_last(self.port, last_frame(self))
-    if self.owns_port then self.port:close() end
+    device.close(self)
   end
 
   class.__close = function(self) self:close() end
   class.__gc = function(self) device.send_last(self.port, last_frame(self)) end
 end
 
---- Reads the options that all grippers have, and opens the port.
----@param o table  options of the caller, which has read all others
+--- As device.new, with the options that all grippers have.
 function gripper.new(subject, o, fields)
-  local given, baud = o:raw "port", o:get "baud"
-  fields.subject, fields.slave, fields.timeout = subject, o:get "slave", o:get "timeout"
-  fields.move_timeout, fields.poll, fields.attempts = o:get "move_timeout", o:get "poll", o:get "attempts"
-  o:done()
-  fields.port, fields.owns_port = device.port_of(subject, given, baud), type(given) == "string"
-  return fields
+  fields.slave, fields.move_timeout, fields.poll = o:get "slave", o:get "move_timeout", o:get "poll"
+  return device.new(subject, o, fields)
 end
 
 return gripper

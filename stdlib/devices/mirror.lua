@@ -101,7 +101,7 @@ local function read_dofs(o, hand)
   for i = 1, #(given or hand.dofs) do
     local d = given and given[i] or i
     if math.type(d) ~= "integer" or d < 1 or d > #hand.dofs or seen[d] then
-      o:expected(("dofs[%d]"):format(i), ("another number from 1 to %d"):format(#hand.dofs), d)
+      o:expected(("dofs[%d]"):format(i), ("a number from 1 to %d, different from the others"):format(#hand.dofs), d)
     end
     out[i], seen[d] = d, true
   end
@@ -140,7 +140,7 @@ end
 ---@return mirror mirror # `pull`, `push`
 ---@effect reads
 --- > device = {read = function() return {0, 1, 1, 1} end, move = function() end}
---- > clench.devices.mirror {hand = hand, device = device, dofs = {1, 1}}  --> error: dofs[2] must be another number
+--- > clench.devices.mirror {hand = hand, device = device, dofs = {1, 1}}  --> error: dofs[2] must be a number from 1 to 4, different from the others
 return function(options)
   local o = new_options(subject, options)
   local mirror = {hand = o:get "hand", device = o:raw "device", max_speed = o:get "max_speed", interval = o:get "interval"}

@@ -16,7 +16,7 @@ end
 --- A frame with its checksum.
 function modbus.frame(bytes) return bytes .. string.pack("<I2", modbus.crc(bytes)) end
 
--- one exchange: the answer without checksum; nil and the reason if there is none
+-- the answer to a request, without checksum; nil and the reason if there is none. size: length of a correct answer
 local function exchange(master, request, size)
   local port = master.port
   port:discard()
@@ -35,16 +35,10 @@ local function exchange(master, request, size)
   return head:sub(1, -3)
 end
 
--- repeats a request until it is answered; size: length of a correct answer
 local function ask(master, bytes, size, doing)
-  local request = modbus.frame(bytes)
-  for _ = 1, master.attempts do
-    local answer, why = exchange(master, request, size)
-    if why == "closed" or why == "unplugged" then device.fail(master.subject, master.port, why, doing) end
-    if answer and answer:byte(2) == bytes:byte(2) then return answer end
-    if answer then raise(("%s: the device rejects the request: %s (exception %d)"):format(master.subject, doing, answer:byte(3)), "stale") end
-  end
-  device.fail(master.subject, master.port, "timeout", doing)
+  local answer = device.ask(master, doing, exchange, modbus.frame(bytes), size)
+  if answer:byte(2) == bytes:byte(2) then return answer end
+  raise(("%s: the device rejects the request: %s (exception %d)"):format(master.subject, doing, answer:byte(3)), "stale")
 end
 
 --- Reads registers.

@@ -180,7 +180,8 @@ test("Barrett: faults of the hand are reported with their numbers", function(t)
   hand:move {math.pi, 2.51327, 0, 1.256635}
   t.equal({device.motors.S.P, device.motors["1"].P, device.motors["3"].P}, {3150, 17800, 8900})
   t.fails(function() hand:open "4" end, "motors: expected letters of 1, 2, 3 and S")
-  t.fails(function() hand:increment(0) end, "counts: expected a whole number other than 0")
+  t.fails(function() hand:increment(0) end, "counts: expected a whole number other than 0, from -17800 to 17800, got 0")
+  t.fails(function() hand:torque "shut" end, "direction: expected 'close' or 'open', got 'shut'")
 end)
 
 test("Barrett: a stop that the hand does not confirm is repeated, for a bounded time", function(t)
