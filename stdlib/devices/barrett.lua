@@ -1,7 +1,6 @@
 local class = require "clench.class"
 local described = require "clench.described"
 local device = require "clench.devices.device"
-local is_stopped = require "clench.is_stopped"
 local new_options = require "clench.options"
 local raise = require "clench.raise"
 
@@ -17,7 +16,6 @@ local max_counts = {max_spread, max_finger, max_finger, max_finger}
 local max_angles = {spread_angle, finger_angle, finger_angle, finger_angle}
 local all = "123S"                 -- the order in which the hand reports values
 local order_of_all = {4, 1, 2, 3}  -- position of each DOF in that order
-local max_closing_time = 3         -- [s]
 
 function Barrett:__tostring() return "Barrett hand at " .. self.port.name end
 
@@ -157,35 +155,17 @@ function Barrett:breakaways()
   return out
 end
 
--- switches the motors off, repeatedly until the hand confirms it; false: it has not done so in time
-local function stop_confirmed(self)
-  local last = clench.clock() + math.min(self.attempts * self.timeout, max_closing_time)
-  for _ = 1, self.attempts do
-    local left = last - clench.clock()
-    if left <= 0 then return false end
-    local reply, why = exchange(self, "T", math.min(self.timeout, left))
-    if reply and not reply:find "ERR" then return true end
-    if why == "closed" or why == "unplugged" then return false end
-  end
-  return false
+local function try_stop(self, seconds)
+  local reply, why = exchange(self, "T", seconds)
+  return reply ~= nil and not reply:find "ERR", why
 end
 
 --- Switches the motors off and closes the port. A stop that the hand does not confirm is repeated for at most three seconds.
 ---@return boolean stopped  false: the hand has not confirmed it
-function Barrett:close()
-  if self.is_closed then return true end
-  self.is_closed = true
-  local ok, stopped = pcall(stop_confirmed, self)
-  if not ok then device.send_last(self.port, "T\r") end  -- a stop or an error has ended the wait
-  device.close(self)
-  if is_stopped(stopped) then error(stopped, 0) end
-  stopped = ok and stopped
-  if not stopped then clench.log.warning(("%s: the hand at %s has not confirmed that its motors are off"):format(subject, self.port.name)) end
-  return stopped
-end
+function Barrett:close() return device.stop_and_close(self, try_stop, "T\r") end
 
 Barrett.__close = function(self) self:close() end
-Barrett.__gc = function(self) if not self.is_closed then device.send_last(self.port, "T\r") end end
+Barrett.__gc = function(self) device.send_last(self, "T\r") end
 
 --- Driver of a Barrett hand BH8-262. Angles are checked before they are sent. When the program ends, the motors are switched off; but if it is
 --- killed, the hand stays as it is, because it has no watchdog.

@@ -1,5 +1,6 @@
 --- Functions shared by drivers of devices: the port, errors, and checks of values before they are sent.
 local described = require "clench.described"
+local is_stopped = require "clench.is_stopped"
 local raise = require "clench.raise"
 local device = {}
 
@@ -88,9 +89,44 @@ function device.median(readings)
   return out
 end
 
---- Sends bytes without waiting, for use when a script ends.
-function device.send_last(port, bytes)
+local function send_now(port, bytes)
   if port.stream:descriptor() >= 0 then port.stream:write(bytes, 0) end
+end
+
+--- Sends the bytes that stop a device without waiting, unless the driver is closed; for use when a script ends.
+function device.send_last(driver, bytes)
+  if not driver.is_closed then send_now(driver.port, bytes) end
+end
+
+local max_closing_time = 3  -- [s]
+
+-- stops a device, repeatedly until it confirms it; false: it has not done so in time
+local function stop_confirmed(driver, stop)
+  local last = clench.clock() + math.min(driver.attempts * driver.timeout, max_closing_time)
+  for _ = 1, driver.attempts do
+    local left = last - clench.clock()
+    if left <= 0 then return false end
+    local is_confirmed, why = stop(driver, math.min(driver.timeout, left))
+    if is_confirmed then return true end
+    if why == "closed" or why == "unplugged" then return false end
+  end
+  return false
+end
+
+--- Stops a device and closes its port. A stop that the device does not confirm is repeated for at most three seconds; a warning is reported if it never does.
+---@param stop fun(driver: table, seconds: number): boolean?, string?  one attempt: true if the device has confirmed it, otherwise the reason, as returned by port:read
+---@param last string  bytes that stop the device
+---@return boolean stopped  false: the device has not confirmed it
+function device.stop_and_close(driver, stop, last)
+  if driver.is_closed then return true end
+  driver.is_closed = true
+  local ok, stopped = pcall(stop_confirmed, driver, stop)
+  if not ok then send_now(driver.port, last) end  -- a stop or an error of the script has ended the wait
+  device.close(driver)
+  if is_stopped(stopped) then error(stopped, 0) end
+  stopped = ok and stopped
+  if not stopped then clench.log.warning(("%s: the device at %s has not confirmed that it has stopped"):format(driver.subject, driver.port.name)) end
+  return stopped
 end
 
 return device

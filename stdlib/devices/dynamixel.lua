@@ -221,14 +221,31 @@ local function torque_off(ids)
   return packet.encode(packet.broadcast, "sync_write", table.concat(list))
 end
 
---- Switches the torque off and closes the port.
-function Bus:close()
-  device.send_last(self.port, torque_off(self.ids))
-  device.close(self)
+-- attempts to switch the torque off, each for the motors that have not confirmed an earlier one
+local function new_stop(self)
+  local left = self.ids
+  local address, size = register_of "torque_enable"
+  return function()
+    local ok, why = self.port:write(torque_off(left), self.timeout)
+    if not ok then return false, why end
+    local answers
+    answers, why = ask_some(self, left, address, size, false)
+    local still = {}
+    for _, id in ipairs(left) do
+      local answer = answers and answers[id]
+      if not answer or answer.parameters ~= "\0" then still[#still + 1] = id end
+    end
+    left = still
+    return #left == 0, why
+  end
 end
 
+--- Switches the torque off and closes the port. A stop that a motor does not confirm is repeated for at most three seconds.
+---@return boolean stopped  false: some motor has not confirmed it
+function Bus:close() return device.stop_and_close(self, new_stop(self), torque_off(self.ids)) end
+
 Bus.__close = function(self) self:close() end
-Bus.__gc = function(self) device.send_last(self.port, torque_off(self.ids)) end
+Bus.__gc = function(self) device.send_last(self, torque_off(self.ids)) end
 
 local function check_ids(o)
   local ids, seen = o:raw "ids", {}

@@ -37,25 +37,20 @@ function gripper.byte_of(subject, name, value, default)
   return math.floor(255 * value + 0.5)
 end
 
--- the frame that stops the fingers
-local function last_frame(self)
-  local bytes = self:stopping()
-  return modbus.frame(string.pack(">B B I2 I2 B", self.slave, 16, request_address, #bytes // 2, #bytes) .. bytes)
-end
+local function stop_frame(self) return modbus.write_frame(self, request_address, self:stopping()) end
+local function try_stop(self, seconds) return modbus.try_write(self, request_address, self:stopping(), seconds) end
 
 --- Adds the common methods to a class whose method `stopping` returns the registers that stop the fingers.
 function gripper.complete(class)
   --- Stops the fingers.
   function class:stop() gripper.send(self, self:stopping()) end
 
-  --- Stops the fingers and closes the port.
-  function class:close()
-    device.send_last(self.port, last_frame(self))
-    device.close(self)
-  end
+  --- Stops the fingers and closes the port. A stop that the gripper does not confirm is repeated for at most three seconds.
+  ---@return boolean stopped  false: the gripper has not confirmed it
+  function class:close() return device.stop_and_close(self, try_stop, stop_frame(self)) end
 
   class.__close = function(self) self:close() end
-  class.__gc = function(self) device.send_last(self.port, last_frame(self)) end
+  class.__gc = function(self) device.send_last(self, stop_frame(self)) end
 end
 
 --- As device.new, with the options that all grippers have.

@@ -9,7 +9,7 @@ local Mirror = class "mirror"
 
 function Mirror:__tostring() return ("mirror of %s at %s"):format(self.hand.name, tostring(self.device)) end
 
--- where the real hand is; what a driver returns is not trusted
+-- values of the real hand; those that a driver returns are checked
 local function read_device(self)
   local device = self.device
   local method = device.read_positions and "read_positions" or "read"
@@ -25,7 +25,7 @@ local function read_device(self)
   return values
 end
 
--- Where the real hand is when the first values are sent. From far beyond the limits no value fulfills both the limits and the largest speed.
+-- Values of the real hand before the first ones are sent. If it is far beyond the limits, no value can fulfill both the limits and the maximum speed.
 local function start_of(self, reach)
   local values = read_device(self)
   for i, value in ipairs(values) do
@@ -108,7 +108,7 @@ local function read_dofs(o, hand)
   return out
 end
 
--- for each value of the device
+-- ranges of the values of the device
 local function read_limits(o, mirror)
   local given, out = o:raw "limits", {}
   if given ~= nil and (type(given) ~= "table" or #given ~= #mirror.dofs) then o:expected("limits", ("a list of %d ranges {low, high}"):format(#mirror.dofs), given) end
