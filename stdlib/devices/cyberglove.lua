@@ -12,23 +12,18 @@ local record_size = 24  -- the echo, 22 sensors, and a byte 0
 
 function Glove:__tostring() return "CyberGlove at " .. self.port.name end
 
--- the answer to a command, up to its byte 0; nil and the reason if there is none
-local function exchange(self, command)
+-- the value in the answer to a command, which ends in a byte 0; nil and the reason if there is none. parse: returns nil if the answer is damaged
+local function exchange(self, command, parse)
   self.port:discard()
   local ok, why = self.port:write(command, self.timeout)
   if not ok then return nil, why end
-  return self.port:read_until("\0", self.timeout)
+  local answer
+  answer, why = self.port:read_until("\0", self.timeout)
+  if not answer then return nil, why end
+  return parse(answer)
 end
 
-local function ask(self, command, parse)
-  for _ = 1, self.attempts do
-    local answer, why = exchange(self, command)
-    local value = answer and parse(answer)
-    if value then return value end
-    if why == "closed" or why == "unplugged" then device.fail(subject, self.port, why, command) end
-  end
-  device.fail(subject, self.port, "timeout", command)
-end
+local function ask(self, command, parse) return device.ask(self, command, exchange, command, parse) end
 
 -- sensors of a record; nil if it is damaged
 local function parse_record(record)
@@ -78,9 +73,7 @@ function Glove:read_dofs(calibration, limits)
 end
 
 --- Closes the port.
-function Glove:close()
-  if self.owns_port then self.port:close() end
-end
+function Glove:close() device.close(self) end
 
 Glove.__close = function(self) self:close() end
 
@@ -101,9 +94,5 @@ Glove.__close = function(self) self:close() end
 --- > raw[2], #raw  --> 20, 22
 return function(options)
   local o = new_options(subject, options)
-  local given, baud = o:raw "port", o:get "baud"
-  local glove = {timeout = o:get "timeout", attempts = o:get "attempts", readings = o:get "readings"}
-  o:done()
-  glove.port, glove.owns_port = device.port_of(subject, given, baud), type(given) == "string"
-  return setmetatable(glove, Glove)
+  return setmetatable(device.new(subject, o, {readings = o:get "readings"}), Glove)
 end

@@ -1,4 +1,4 @@
---- Keys and what they do: actions of the view and commands of the session, each with a shortcut that the user may change.
+--- Keys and their effects: actions of the view and commands of the session, each with a shortcut that the user may change.
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
 local navigation = require "clench.view.navigation"

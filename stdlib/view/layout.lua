@@ -38,7 +38,7 @@ function layout.add(panel)
   user_panels[#user_panels + 1] = panel
 end
 
--- an error of a panel is shown in it
+-- shows an error of a panel in the panel
 local function draw_panel(view, ui, panel)
   local ok, message = pcall(panel.draw, ui, view)
   if not ok then ui:text(tostring(message), {color = {0.84, 0.37, 0}, wrap = true}) end

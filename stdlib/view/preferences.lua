@@ -18,7 +18,7 @@ local function sorted_keys(set)
   return list
 end
 
--- a table by names, which is no list if it is empty
+-- a table by names; nil if it is empty, as JSON would take that for a list
 local function named(values) return next(values) and values or nil end
 
 local function text_of(view)

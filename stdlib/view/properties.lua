@@ -26,7 +26,7 @@ local function draw_material(view, ui, bodies)
   if changed then view:run("body.material", {material = names[chosen]}) end
 end
 
--- do the selected bodies collide? If two are selected: with each other
+-- are collisions of the selection enabled? If two are selected: with each other
 local function collide(world, selection)
   if #selection == 2 then return world:may_collide(selection[1], selection[2]) end
   return edit.common(selection, function(thing) return world:may_collide(thing) end) ~= false

@@ -7,7 +7,7 @@ splitters.min = 120  -- of each, at scale 1 [pixels]
 local reach = 5  -- of an edge into the picture [pixels]
 splitters.min_picture = 160  -- width and height that stay between the panels [pixels]
 
---- A size of the panels, as far as the window has room for it.
+--- A size of the panels, limited by the size of the window.
 ---@param name "left"|"right"|"bottom"
 ---@return number size  [pixels]
 function splitters.size(view, name)

@@ -69,8 +69,8 @@ function Viewer:address(thing)
   return escaped(thing.robot.name) .. "/" .. escaped(thing.name)
 end
 
---- Points the camera at the grasp, or restores the user's home, or shows everything.
----@param all? boolean  true: at everything
+--- Restores the camera that Set Home has stored; without one, frames the grasp.
+---@param all? boolean  true: frames everything instead
 function Viewer:home(all)
   if not self.session.world then return end
   self.needs_frame = true
@@ -99,7 +99,7 @@ function Viewer:open_palette() self.palette = {text = "", index = 1} end
 --- Writes the session as a script.
 function Viewer:save_script(path) clench.files.save_text(path, self.session:script() .. "\n") end
 
--- of another world nothing is kept
+-- drops all data of the previous world when another one is opened
 local function follow_world(self)
   local world = self.session.world
   if not world or self.shown_world == world then return end

@@ -140,6 +140,24 @@ for _, name in ipairs(names) do
       kind.check(t, driver, device)
     end)
 
+    test(name .. ": closing repeats the stop until a device on a bad line confirms it", function(t)
+      for seed = 1, 5 do
+        local device <close> = simulate(name, {seed = seed})
+        local driver = kind.connect(device.path, kind.quick, 100)
+        kind.command(driver)
+        device.flip_bytes, device.lose_bytes = 0.04, 0.01
+        t.equal(driver:close(), true, seed)
+        t.ok(kind.stopped(device), seed)
+        t.equal(driver:close(), true)
+      end
+      local device <close> = simulate(name)
+      local driver = kind.connect(device.path, kind.quick, 5)
+      device.lose_bytes = 1
+      local problems, stopped = clench.log.collect(function() return driver:close() end)
+      t.equal(stopped, false)
+      t.ok(problems[1].text:find("devices." .. name .. ": the device at " .. device.path .. " has not confirmed that it has stopped", 1, true), problems[1].text)
+    end)
+
     test(name .. ": it stops when a script ends or fails", function(t)
       for _, ending in ipairs {"driver:close()", "error 'x'", "driver = nil collectgarbage()"} do
         local device <close> = simulate(name)
@@ -180,7 +198,8 @@ test("Barrett: faults of the hand are reported with their numbers", function(t)
   hand:move {math.pi, 2.51327, 0, 1.256635}
   t.equal({device.motors.S.P, device.motors["1"].P, device.motors["3"].P}, {3150, 17800, 8900})
   t.fails(function() hand:open "4" end, "motors: expected letters of 1, 2, 3 and S")
-  t.fails(function() hand:increment(0) end, "counts: expected a whole number other than 0")
+  t.fails(function() hand:increment(0) end, "counts: expected a whole number other than 0, from -17800 to 17800, got 0")
+  t.fails(function() hand:torque "shut" end, "direction: expected 'close' or 'open', got 'shut'")
 end)
 
 test("Barrett: a stop that the hand does not confirm is repeated, for a bounded time", function(t)
@@ -204,7 +223,7 @@ test("Barrett: a stop that the hand does not confirm is repeated, for a bounded 
   local problems
   problems, why = clench.log.collect(function() return devices.barrett {port = line.path, timeout = 0.05, attempts = 5}:close() end)
   t.equal({why, received}, {false, 5})
-  t.ok(problems[1].text:find("has not confirmed that its motors are off", 1, true), problems[1].text)
+  t.ok(problems[1].text:find("has not confirmed that it has stopped", 1, true), problems[1].text)
   t.equal(devices.barrett {port = line.path, timeout = 1, attempts = 1000}:close(), false)
   t.ok(clench.clock() - began < 20)
 end)
