@@ -24,25 +24,38 @@ local function exchange(self, command, seconds)
   local ok, why = self.port:write(command .. "\r", seconds)
   if not ok then return nil, why end
   local text
-  text, why = self.port:read_until("=> ", seconds)
+  text, why = device.read_until(self.port, "=> ", seconds)
   if not text then return nil, why end
-  -- a different echo: the hand has received another command, or the reply is damaged
-  if text:sub(1, #command) ~= command or text:find "[^\r\n\t -~]" then return nil, "damaged" end
+  -- a different or longer echo: the hand has received another command, or the reply is damaged
+  if text:sub(1, #command) ~= command or not text:find("^[\r\n]", #command + 1) or text:find "[^\r\n\t -~]" then return nil, "damaged" end
   return text:sub(#command + 1)
 end
 
--- Sends a command until it is answered; is_once: it must not be repeated, as a repetition would have a further effect.
-local function ask(self, command, seconds, is_once)
-  for _ = 1, is_once and 1 or self.attempts do
+local function error_of(reply) return reply and reply:match "ERR%s*(%d+)" end
+
+local function check_reply(reply, command)
+  local code = error_of(reply)
+  if code then raise(("%s: the hand reports error %s after %s"):format(subject, code, command), "stale") end
+  return reply
+end
+
+-- Sends a command until it is answered. An error may be that of a command that was damaged on its way: it is accepted once it is repeated.
+local function ask(self, command, seconds)
+  local last
+  return check_reply(device.repeated(subject, self, function()
     local reply, why = exchange(self, command, seconds)
-    if reply then
-      local code = reply:match "ERR%s*(%d+)"
-      if not code then return reply end
-      raise(("%s: the hand reports error %s after %s"):format(subject, code, command), "stale")
-    end
-    if why == "closed" or why == "unplugged" then device.fail(subject, self.port, why, command) end
-  end
-  device.fail(subject, self.port, "timeout", command)
+    local code = error_of(reply)
+    if code and code ~= last then reply, why = nil, "damaged" end
+    last = code
+    return reply, why
+  end, command), command)
+end
+
+-- Sends a command that must not be repeated, as a repetition would have a further effect.
+local function ask_once(self, command, seconds)
+  local reply, why = exchange(self, command, seconds)
+  if not reply then device.fail(subject, self.port, (why == "closed" or why == "unplugged") and why or "timeout", command) end
+  return check_reply(reply, command)
 end
 
 -- Numbers of a reply, from 0 to their maxima. No checksum protects them: they are accepted once two replies agree.
@@ -97,7 +110,7 @@ function Barrett:close_fingers(motors) ask(self, prefix_of("close_fingers", moto
 function Barrett:increment(counts, motors)
   local whole = type(counts) == "number" and math.tointeger(counts)
   if not whole or whole == 0 or math.abs(whole) > max_counts[2] then raise "barrett:increment: counts: expected a whole number other than 0 of at most 17800" end
-  ask(self, ("%s%s %d"):format(prefix_of("increment", motors), whole > 0 and "IC" or "IO", math.abs(whole)), self.move_timeout, true)
+  ask_once(self, ("%s%s %d"):format(prefix_of("increment", motors), whole > 0 and "IC" or "IO", math.abs(whole)), self.move_timeout)
 end
 
 --- Closes or opens with constant torque.
@@ -183,7 +196,7 @@ Barrett.__gc = function(self) if not self.is_closed then device.send_last(self.p
 ---@option baud? integer [bit/s, 1 to 10000000] = 9600
 ---@option timeout? number [s, > 0, <= 3600] = 0.5  for replies to queries and settings
 ---@option move_timeout? number [s, > 0, <= 3600] = 20  for the ends of motions
----@option attempts? integer [1 to 1000] = 10  maximum number of attempts to get a correct reply
+---@option attempts? integer [1 to 1000] = 100  maximum number of attempts to get a correct reply; ten if the hand sends nothing
 ---@return barrett hand # `initialize`, `move`, `read`, `open`, `close_fingers`, `home`, `increment`, `torque`, `stop`, `breakaways`, `close`
 ---@effect edits
 --- > simulated = clench.devices.simulated.barrett {}

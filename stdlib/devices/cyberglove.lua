@@ -17,17 +17,15 @@ local function exchange(self, command)
   self.port:discard()
   local ok, why = self.port:write(command, self.timeout)
   if not ok then return nil, why end
-  return self.port:read_until("\0", self.timeout)
+  return device.read_until(self.port, "\0", self.timeout)
 end
 
 local function ask(self, command, parse)
-  for _ = 1, self.attempts do
+  return device.repeated(subject, self, function()
     local answer, why = exchange(self, command)
-    local value = answer and parse(answer)
-    if value then return value end
-    if why == "closed" or why == "unplugged" then device.fail(subject, self.port, why, command) end
-  end
-  device.fail(subject, self.port, "timeout", command)
+    if not answer then return nil, why end
+    return parse(answer), "damaged"
+  end, command)
 end
 
 -- sensors of a record; nil if it is damaged
@@ -89,7 +87,7 @@ Glove.__close = function(self) self:close() end
 ---@option port string|port  path of its serial line, or a port
 ---@option baud? integer [bit/s, 1 to 10000000] = 38400
 ---@option timeout? number [s, > 0, <= 3600] = 0.5  for an answer
----@option attempts? integer [1 to 1000] = 10  maximum number of attempts to get a correct answer
+---@option attempts? integer [1 to 1000] = 100  maximum number of attempts to get a correct answer; ten if the glove sends nothing
 ---@option readings? integer [1 to 99] = 1  records of which each value is the median
 ---@return cyberglove glove # `read`, `read_dofs`, `is_ready`, `close`
 ---@effect edits

@@ -23,6 +23,32 @@ function device.fail(subject, port, why, doing)
   raise(("%s: %s is %s"):format(subject, port.name, why), "stale")
 end
 
+local max_silent = 10  -- attempts in a row to which a device sends nothing
+
+--- Repeats an exchange until it yields an answer; damaged answers may be numerous on a noisy line, silence is not noise.
+---@param driver table  with `port` and `attempts`
+---@param exchange fun(): any, string?  the answer, or nil and the reason: "timeout" if nothing was received
+---@param doing string  for messages
+---@return any
+function device.repeated(subject, driver, exchange, doing)
+  local silent = 0
+  for _ = 1, driver.attempts do
+    local answer, why = exchange()
+    if answer ~= nil then return answer end
+    if why == "closed" or why == "unplugged" then device.fail(subject, driver.port, why, doing) end
+    silent = why == "timeout" and silent + 1 or 0
+    if silent == max_silent then break end
+  end
+  device.fail(subject, driver.port, "timeout", doing)
+end
+
+--- Bytes up to a delimiter; nil and "damaged" if some were received without it, "timeout" if none were.
+function device.read_until(port, delimiter, seconds)
+  local bytes, why = port:read_until(delimiter, seconds)
+  if not bytes and why == "timeout" and port:read_some(0) then why = "damaged" end
+  return bytes, why
+end
+
 --- Checks numbers before they are sent.
 ---@param names string[]  of the numbers, for messages
 ---@param low number[]
