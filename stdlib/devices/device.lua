@@ -46,16 +46,29 @@ function device.check_lost(driver, why)
   if why == "closed" or why == "unplugged" then device.fail(driver, why) end
 end
 
---- Repeats an exchange until it succeeds, at most `driver.attempts` times; raises an error if it never does.
+local max_silent = 10  -- attempts in a row to which a device sends nothing
+
+--- Repeats an exchange until it succeeds, at most `driver.attempts` times; raises an error if it never does. Damaged answers may be numerous on a noisy line, but
+--- a device that sends nothing ten times in a row is taken as absent.
 ---@param doing string  for the message
----@param exchange fun(driver: table, ...): any?, string?  the answer; or nil and the reason, as returned by port:read
+---@param exchange fun(driver: table, ...): any?, string?  the answer; or nil and the reason, as returned by port:read: "timeout" if nothing was received
 function device.ask(driver, doing, exchange, ...)
+  local silent = 0
   for _ = 1, driver.attempts do
     local answer, why = exchange(driver, ...)
     if answer ~= nil then return answer end
     device.check_lost(driver, why)
+    silent = why == "timeout" and silent + 1 or 0
+    if silent == max_silent then break end
   end
   device.fail(driver, "timeout", doing)
+end
+
+--- Bytes up to a delimiter; nil and "damaged" if some were received without it, "timeout" if none were.
+function device.read_until(port, delimiter, seconds)
+  local bytes, why = port:read_until(delimiter, seconds)
+  if not bytes and why == "timeout" and port:read_some(0) then why = "damaged" end
+  return bytes, why
 end
 
 --- Checks numbers before they are sent.

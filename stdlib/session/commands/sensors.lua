@@ -1,7 +1,10 @@
 --- Commands of the Sensors menu: connect devices, move the current hand by them, and calibrate a glove.
+local birds = require "clench.session.birds"
 local conditions = require "clench.session.conditions"
+local real_hands = require "clench.session.real_hands"
 local sensed = require "clench.session.sensed"
 local sensors = require "clench.session.sensors"
+local serial_lines = require "clench.session.serial_lines"
 
 local file = {name = "path", type = "string", text = "a file of a glove's calibration"}
 local glove, tracker, real_hand = sensors.has_reading "glove", sensors.has_reading "tracker", sensors.has_reading "hand"
@@ -23,12 +26,22 @@ local function edit(name, label, enabled, run)
   return {name = "sensors." .. name, label = label, menu = "Sensors", enabled = enabled, run = run}
 end
 
-local function connection(kind, label, text)
-  return setting("connect_" .. kind, label, nil,
-                 {{name = "path", type = "string", text = text},
-                  {name = "baud", type = "integer", min = 1, max = 10000000, unit = "bit/s", optional = true, text = "that of the device by default"}},
-                 function(session, args) sensors.connect(session, kind, args.path, args.baud) end)
+-- more: parameters of this device
+local function connection(kind, label, text, more)
+  local parameters = {{name = "path", type = "string", text = text, hint = serial_lines.hint}}
+  for _, parameter in ipairs(more) do parameters[#parameters + 1] = parameter end
+  parameters[#parameters + 1] = {name = "baud", type = "integer", min = 1, max = 10000000, unit = "bit/s", optional = true, text = "that of the device by default"}
+  return setting("connect_" .. kind, label, nil, parameters, function(session, args) sensors.connect(session, kind, args.path, args) end)
 end
+
+local bird_count = {name = "birds", type = "integer", min = 1, max = 3, default = 1, text = "number of sensors of the tracker"}
+local hand_parameters = {
+  {name = "driver", type = "string", choices = real_hands.names, default = "barrett", text = "robotiq: two fingers; dynamixel: motors on one bus"},
+  {name = "ids", type = "table", optional = true, text = "numbers of Dynamixel motors, {1, 2, 3}, or of a gripper, {9}; LEAP hands: 0 to 15 by default"},
+  {name = "dofs", type = "table", optional = true, text = "of the simulated hand, one for each value of the real one; all by default"},
+  {name = "signs", type = "table", optional = true, text = "1 or -1 for each value: DOF = sign * value + offset"},
+  {name = "offsets", type = "table", optional = true, text = "for each value [rad or m]"},
+}
 
 local function record(session, args)
   local postures = session.sensors.postures
@@ -42,10 +55,7 @@ local function calibrate(session, args)
   return calibration.report
 end
 
-local function set_frame(session, args)
-  local reading = sensors.reading(session, "tracker")
-  session.sensors.frame = args.mode == "relative" and {mode = "relative", base = reading, pose = session.hand.pose} or nil
-end
+local function choose_bird(session, args) birds.choose(session, args.bird, args.target, args.mode) end
 
 local function load_calibration(session, args)
   session.sensors.calibration = clench.files.glove_calibration(args.path)
@@ -65,16 +75,19 @@ local function follow(session)
 end
 
 return {
-  connection("glove", "Connect Glove…", "serial line of a CyberGlove"),
-  connection("tracker", "Connect Tracker…", "serial line of a Flock of Birds"),
-  connection("hand", "Connect Barrett Hand…", "serial line of a Barrett hand, which is initialized: its fingers move"),
+  connection("glove", "Connect Glove…", "serial line of a CyberGlove", {}),
+  connection("tracker", "Connect Tracker…", "serial line of a Flock of Birds", {bird_count}),
+  connection("hand", "Connect Real Hand…", "serial line of a hand, which is initialized: fingers of Barrett hands and grippers move", hand_parameters),
   setting("disconnect", "Disconnect…", nil, {{name = "device", type = "string", choices = {"glove", "tracker", "hand"}, text = "a real hand is stopped"}},
           function(session, args) sensors.disconnect(session, args.device) end),
   edit("apply", "Move Hand to Readings", sensed.can_apply, sensed.apply),
   setting("follow", "Follow/Stop Following", sensed.can_apply, nil, follow),
-  setting("tracker_mode", "Tracker Mode…", hand_and(tracker),
-          {{name = "mode", type = "string", choices = {"absolute", "relative"}, default = "relative", text = "relative: the hand moves from where it is now as the sensor moves"}},
-          set_frame),
+  setting("tracker_mode", "Tracker Mode…", tracker,
+          {{name = "mode", type = "string", choices = {"absolute", "relative", "camera"}, default = "absolute",
+            text = "relative: the target moves from where it is now as the sensor moves; camera: relative to the camera, which another bird moves"},
+           {name = "bird", type = "integer", min = 1, max = 3, default = 1, text = "number of the sensor"},
+           {name = "target", type = "string", default = "hand", text = "what the bird moves: hand (the current one), camera, none, or the name of a body or robot"}},
+          choose_bird),
   setting("record_posture", "Record Posture…", hand_and(glove),
           {{name = "dofs", type = "table", optional = true, text = "of the hand that wears the glove; those of the current hand by default [rad]"}}, record),
   setting("clear_postures", "Clear Postures", has_postures, nil, function(session) session.sensors.postures = {} end),
