@@ -1,6 +1,7 @@
 --- Keys and their effects: actions of the view and commands of the session, each with a shortcut that the user may change.
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
+local measure = require "clench.view.measure"
 local navigation = require "clench.view.navigation"
 local stereo = require "clench.view.stereo"
 local tools = require "clench.view.tools"
@@ -17,8 +18,8 @@ local function cancel(view)
   elseif view.press then
     view.press = nil
     view.session:cancel_gesture()
-  else
-    dialog.cancel(view)
+  elseif not dialog.cancel(view) then
+    measure.clear(view)
   end
 end
 
@@ -35,7 +36,7 @@ local own = {
   {"seek", "Seek the point under the mouse", "f", navigation.seek_mouse},
 }
 for i, tool in ipairs(tools.names) do
-  own[#own + 1] = {"tool " .. tool, "Tool " .. tool, tostring(i), function(view) view.current_tool = tool end}
+  own[#own + 1] = {"tool " .. tool, "Tool " .. tool, tostring(i), function(view) tools.choose(view, tool) end}
 end
 for i = 1, navigation.bookmark_count do
   own[#own + 1] = {"recall " .. i, "Recall bookmark " .. i, "f" .. i, function(view) navigation.recall(view, i) end}

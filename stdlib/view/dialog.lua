@@ -163,10 +163,13 @@ local function draw(view, ui, command, state)
 end
 
 --- Closes the open dialogs; those of planners stay, because their searches continue.
+---@return boolean closed  was there one?
 function dialog.cancel(view)
+  local closed = false
   for name in pairs(view.dialogs) do
-    if not is_planner(view.session.commands[name]) then view.dialogs[name] = nil end
+    if not is_planner(view.session.commands[name]) then view.dialogs[name], closed = nil, true end
   end
+  return closed
 end
 
 --- Draws the open dialogs.

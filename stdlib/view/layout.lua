@@ -10,6 +10,7 @@ local menus = require "clench.view.menus"
 local projections = require "clench.view.projections"
 local selection = require "clench.view.selection"
 local splitters = require "clench.view.splitters"
+local tools = require "clench.view.tools"
 local layout = {}
 
 local menu_height, bar_height, status_height = 24, 36, 28  -- at scale 1 [pixels]
@@ -145,7 +146,7 @@ end
 local function draw_bar(view, ui, y, width)
   ui:window("tool bar", {x = 0, y = y, width = width, height = bar_height * view.scale, title = false, scroll = false}, function(ui)
     for _, tool in ipairs(view.tools) do
-      if ui:button(tool .. "##tool", {selected = view.current_tool == tool}) then view.current_tool = tool end
+      if ui:button(tool .. "##tool", {selected = view.current_tool == tool}) then tools.choose(view, tool) end
       ui:tooltip(("%s  %s"):format(tool, bindings.shown(view, "tool " .. tool)))
       ui:same_line()
     end

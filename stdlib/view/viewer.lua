@@ -228,7 +228,7 @@ end
 function Viewer:tool(name)
   for _, known in ipairs(tools.names) do
     if known == name then
-      self.current_tool = name
+      tools.choose(self, name)
       return input.settle(self)
     end
   end

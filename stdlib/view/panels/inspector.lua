@@ -13,7 +13,7 @@ local function draw_pose(ui, view, thing)
   for i, axis in ipairs {"x", "y", "z", "roll", "pitch", "yaw"} do
     local factor, name, format = units.of(view, i <= 3 and "m" or "rad")
     ui:width(-90)
-    local value, is_changed, is_finished = ui:drag(("%s [%s]"):format(axis, name), values[i] * factor, {speed = factor * (i <= 3 and 1e-3 or 5e-3), format = format})
+    local value, is_changed, is_finished = ui:drag(("%s [%s]"):format(axis, name), units.field(values[i] * factor, format), {speed = factor * (i <= 3 and 1e-3 or 5e-3), format = format})
     if is_changed then values[i], changed = value / factor, true end
     finished = finished or is_finished
   end

@@ -76,7 +76,8 @@ local function draw_contacts(view, ui, contacts)
   if #contacts == 0 then return end
   local known = false  -- are there forces?
   for _, contact in ipairs(contacts) do known = known or contact.force ~= nil and contact.force:norm() > 0 end
-  ui:table("contacts", {"link", "fx", "fy", "fz [N]"}, {}, function(ui)
+  -- columns are as wide as their texts when a table appears
+  ui:table(known and "contacts with forces" or "contacts", {"link", "fx", "fy", "fz [N]"}, {}, function(ui)
     for i, contact in ipairs(contacts) do
       local force = contact.force
       ui:next_column()
