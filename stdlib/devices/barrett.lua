@@ -197,5 +197,5 @@ Barrett.__gc = function(self) device.send_last(self, "T\r") end
 --- > barrett:move {9, 0, 0, 0}  --> error: spread: expected 0 to 3.14159 rad, got 9
 return function(options)
   local o = new_options(subject, options)
-  return setmetatable(device.new(subject, o, {move_timeout = o:get "move_timeout"}), Barrett)
+  return setmetatable(device.new(subject, o, {max_silent = 10, move_timeout = o:get "move_timeout"}), Barrett)
 end

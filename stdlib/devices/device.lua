@@ -46,10 +46,8 @@ function device.check_lost(driver, why)
   if why == "closed" or why == "unplugged" then device.fail(driver, why) end
 end
 
-local max_silent = 10  -- attempts in a row to which a device sends nothing
-
 --- Repeats an exchange until it succeeds, at most `driver.attempts` times; raises an error if it never does. Damaged answers may be numerous on a noisy line, but
---- a device that sends nothing ten times in a row is taken as absent.
+--- a device that answers also damaged commands is absent if it sends nothing `driver.max_silent` times in a row.
 ---@param doing string  for the message
 ---@param exchange fun(driver: table, ...): any?, string?  the answer; or nil and the reason, as returned by port:read: "timeout" if nothing was received
 function device.ask(driver, doing, exchange, ...)
@@ -59,7 +57,7 @@ function device.ask(driver, doing, exchange, ...)
     if answer ~= nil then return answer end
     device.check_lost(driver, why)
     silent = why == "timeout" and silent + 1 or 0
-    if silent == max_silent then break end
+    if silent == driver.max_silent then break end
   end
   device.fail(driver, "timeout", doing)
 end

@@ -93,7 +93,7 @@ test("what does not fit a driver is refused in one sentence, before anything is 
   with.connect(t, session, "hand", device, {dofs = {1, 2}})
   t.fails(function() session:run "sensors.pull" end, "the real hand has 4 values, and was connected with 2 dofs")
   with.connect(t, session, "hand", gripper, {driver = "robotiq", dofs = {9}})
-  t.fails(function() session:run "sensors.push" end, "dofs[1] must be another number from 1 to 4, got 9")
+  t.fails(function() session:run "sensors.push" end, "dofs[1] must be a number from 1 to 4, different from the others, got 9")
 end)
 
 -- goals in the bytes that a device has received: lists of values, in counts
