@@ -1,5 +1,6 @@
 --- Dialogs of commands, made from their parameters.
 local leave = require "clench.view.leave"
+local paths = require "clench.view.paths"
 local results = require "clench.view.planner_results"
 local variables = require "clench.view.planner_variables"
 local dialog = {}
@@ -148,6 +149,7 @@ end
 local function draw(view, ui, command, state)
   if is_planner(command) then return draw_planner(view, ui, command, state) end
   draw_fields(view, ui, command, state, math.min(#(command.parameters or {}) * (ui.line_height + 6) + 8, 420))
+  paths.draw(view, ui, command, state)
   if state.error then ui:text(state.error, {color = {0.84, 0.37, 0}, wrap = true}) end
   if ui:button("OK", {width = 90}) or state.entered then
     state.entered = nil

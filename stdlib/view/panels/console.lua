@@ -38,7 +38,9 @@ local function run(view, line)
   view:changed()
 end
 
-local colors = {error = {0.84, 0.37, 0}, input = {0.4, 0.45, 0.5}, lua = {0, 0.45, 0.7}}
+-- by the kind of a line, on a light and on a dark background
+local light = {error = {0.84, 0.37, 0}, input = {0.4, 0.45, 0.5}, lua = {0, 0.45, 0.7}}
+local dark = {error = {0.9, 0.5, 0.2}, input = {0.6, 0.65, 0.7}, lua = {0.34, 0.71, 0.91}}
 
 local up, down = 265, 264  -- codes of keys
 
@@ -86,6 +88,7 @@ local function draw_input(view, ui)
 end
 
 local function draw(ui, view)
+  local colors = view.dark and dark or light
   ui:child("lines", {height = -ui.line_height}, function(ui)
     for i = math.max(1, #view.lines - 200), #view.lines do ui:text(view.lines[i].text, {wrap = true, color = colors[view.lines[i].kind]}) end
     if view.scroll_console then ui:scroll_to_end() view.scroll_console = false end
