@@ -1,5 +1,6 @@
 --- Dialogs of commands, made from their parameters.
 local leave = require "clench.view.leave"
+local paths = require "clench.view.paths"
 local results = require "clench.view.planner_results"
 local variables = require "clench.view.planner_variables"
 local dialog = {}
@@ -153,6 +154,7 @@ local function draw(view, ui, command, state)
   -- an error takes its lines from the fields: the window keeps its size, and its buttons remain visible
   local lines = state.error and 3 or 0
   draw_fields(view, ui, command, state, math.max(math.min(#(command.parameters or {}) * (ui.line_height + 6) + 8, 420) - lines * ui.line_height, 2 * ui.line_height))
+  paths.draw(view, ui, command, state)
   if state.error then ui:text(state.error, {color = {0.84, 0.37, 0}, wrap = true}) end
   if ui:button("OK", {width = 90}) or state.entered then
     state.entered = nil

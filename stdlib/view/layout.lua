@@ -15,6 +15,7 @@ local layout = {}
 
 local menu_height, bar_height, status_height = 24, 36, 28  -- at scale 1 [pixels]
 local line_height = 28  -- of widgets at scale 1 [pixels]
+local min_bar = 1050  -- width of the complete tool bar at scale 1 [pixels]
 local tall_share = 0.72  -- fraction of the height of its column
 local user_panels = {}  -- panels that scripts have added, by name and in order
 
@@ -150,7 +151,8 @@ local function draw_bar(view, ui, y, width)
       ui:tooltip(("%s  %s"):format(tool, bindings.shown(view, "tool " .. tool)))
       ui:same_line()
     end
-    for _, entry in ipairs {{"Undo", "edit.undo"}, {"Redo", "edit.redo"}, {"Close hand", "grasp.autograsp"}, {"Open hand", "grasp.open"}} do
+    -- in a narrow window these are in the menus only
+    for _, entry in ipairs(width < min_bar * view.scale and {} or {{"Undo", "edit.undo"}, {"Redo", "edit.redo"}, {"Close hand", "grasp.autograsp"}, {"Open hand", "grasp.open"}}) do
       if view.session.commands[entry[2]] then command_button(view, ui, entry[1], entry[2]) end
     end
     local world = view.session.world

@@ -190,3 +190,46 @@ test("keys, navigation, sizes and the panel in front are kept, and damaged value
   other:close()
   os.remove(file)
 end)
+
+test("the command palette is in front of the panels of a small window, and arrow keys choose in it", function(t)
+  local session = clench.session()
+  session:open("worlds/barrett_mug.wld", {root = "."})
+  local view = clench.view.offscreen {session = session, size = {640, 480}}
+  view:frame()
+  view:key "ctrl+p"
+  view:type "auto"
+  local entries = {}
+  for _, item in ipairs(view:items()) do
+    if item.window == "Command Palette" and item.label:find "^Auto" then entries[#entries + 1] = item end
+  end
+  t.equal(entries[1].label:match "^Auto Grasp", "Auto Grasp")
+  t.ok(entries[1].x < view.sizes.left - 20, entries[1].x)
+  view:click(entries[1].x + 5, entries[1].y + entries[1].height / 2)
+  t.equal(view.palette, nil)
+  t.equal(session.history.done[#session.history.done].label, "Auto Grasp")
+  view:key "ctrl+p"
+  view:type "auto"
+  view:key "down"
+  view:key "down"
+  view:key "up"
+  view:key "enter"
+  t.equal(session.history.done[#session.history.done].label, entries[2].label:match "^%u%l+ %u%l+")
+  view:close()
+end)
+
+test("a narrow window has the choices of the tool bar, and commands in the menus only", function(t)
+  local session = clench.session()
+  session:open("worlds/barrett_mug.wld", {root = "."})
+  for _, width in ipairs {800, 1070} do
+    local view = clench.view.offscreen {session = session, size = {width, 600}}
+    local right, has_undo = 0, false
+    for _, item in ipairs(view:items()) do
+      if item.window == "tool bar" then
+        right, has_undo = math.max(right, item.x + item.width), has_undo or item.label == "Undo"
+      end
+    end
+    t.ok(right < width, right)
+    t.equal(has_undo, width > 1000)
+    view:close()
+  end
+end)

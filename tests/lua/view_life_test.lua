@@ -1,5 +1,6 @@
 -- The life of a view: the question about unsaved changes, and data kept from one run to the next.
 local test, clench = require "test", require "clench"
+local paths = require "clench.view.paths"
 
 -- a small world from a new file
 local function open()
@@ -272,4 +273,27 @@ test("the session's script is written completely, or not at all", function(t)
   view:close()
   os.remove(file)
   os.remove(path)
+end)
+
+test("the files of an import are chosen from a list, which follows the text, and a planner's dialog ends with its world", function(t)
+  local session = clench.session()
+  session:open("worlds/barrett_mug.wld", {root = "."})
+  local view = clench.view.offscreen {session = session, size = {1070, 937}}
+  view:menu "Grasp/Planner…"
+  t.ok(view.dialogs["planner.primitive"])
+  view:menu "File/New"
+  view:frame()
+  t.equal(view.dialogs, {})
+  view:menu "File/Import Object…"
+  local known = clench.catalog().objects
+  t.equal(paths.choices(view, session.commands["world.import_object"], ""), known)
+  view:type "cyl"
+  t.equal(paths.choices(view, session.commands["world.import_object"], "cyl"), {"models/objects/cylinder.iv"})
+  view:click_label "models/objects/cylinder.iv"
+  t.equal(view.dialogs["world.import_object"].path, "models/objects/cylinder.iv")
+  view:click_label "OK"
+  t.equal(session.world.objects[1].name, "cylinder")
+  t.equal(paths.choices(view, session.commands["world.import_robot"], "arms"), clench.catalog().arms)
+  t.equal(paths.choices(view, session.commands["world.save_as"], ""), {})
+  view:close()
 end)
