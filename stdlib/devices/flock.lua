@@ -37,25 +37,25 @@ local function find_record(received, size)
   return nil, at and received:sub(at) or ""
 end
 
+-- one request for a record of a bird; nil and the reason if there is none
+local function exchange(self, bird, size)
+  self.port:discard()
+  local ok, why = self.port:write(address(bird) .. "B", self.timeout)
+  if not ok then return nil, why end
+  local last, received, words, more = loop.time() + self.timeout, "", nil, nil
+  while true do
+    local is_silent = not more
+    more, why = self.port:read_some(math.max(0, last - loop.time()))
+    if not more then return nil, why == "timeout" and not is_silent and "damaged" or why end
+    words, received = find_record(received .. more, size)
+    if words then return words end
+    if loop.time() > last + self.timeout then return nil, "damaged" end  -- of a device that never pauses
+  end
+end
+
 -- a record of a bird
 local function request(self, bird)
-  local size = 2 * self.mode.words
-  for _ = 1, self.attempts do
-    self.port:discard()
-    local ok, why = self.port:write(address(bird) .. "B", self.timeout)
-    local last, received = loop.time() + self.timeout, ""
-    while ok do
-      local more
-      more, why = self.port:read_some(math.max(0, last - loop.time()))
-      if not more then break end
-      local words
-      words, received = find_record(received .. more, size)
-      if words then return words end
-      if loop.time() > last + self.timeout then break end  -- of a device that never pauses
-    end
-    if why == "closed" or why == "unplugged" then device.fail(subject, self.port, why, "bird " .. bird) end
-  end
-  device.fail(subject, self.port, "timeout", "bird " .. bird)
+  return device.repeated(subject, self, function() return exchange(self, bird, 2 * self.mode.words) end, "bird " .. bird)
 end
 
 local function position_of(words) return {words[1] * range / 32768, words[2] * range / 32768, words[3] * range / 32768} end
@@ -130,7 +130,7 @@ end
 ---@option mode? "matrix"|"angles" = "matrix"  records of rotation matrices or of angles
 ---@option baud? integer [bit/s, 1 to 10000000] = 115200
 ---@option timeout? number [s, > 0, <= 3600] = 0.2  for a record
----@option attempts? integer [1 to 1000] = 20  maximum number of attempts to get a correct record
+---@option attempts? integer [1 to 1000] = 20  maximum number of attempts to get a correct record; ten if the flock sends nothing
 ---@option readings? integer [1 to 99] = 1  records of which each word is the median: no checksum protects them
 ---@return flock flock # `read`, `close`
 ---@effect edits
