@@ -41,15 +41,16 @@ local function request(self, bird)
   self.port:discard()
   local ok, why = self.port:write(address(bird) .. "B", self.timeout)
   if not ok then return nil, why end
-  local last, received = loop.time() + self.timeout, ""
+  local last, received, is_silent = loop.time() + self.timeout, "", true
   repeat
     local more, words
     more, why = self.port:read_some(math.max(0, last - loop.time()))
-    if not more then return nil, why end
+    if not more then return nil, why == "timeout" and not is_silent and "damaged" or why end
+    is_silent = false
     words, received = find_record(received .. more, 2 * self.mode.words)
     if words then return words end
   until loop.time() > last + self.timeout  -- of a device that never pauses
-  return nil, "timeout"
+  return nil, "damaged"
 end
 
 local function position_of(words) return {words[1] * range / 32768, words[2] * range / 32768, words[3] * range / 32768} end
@@ -122,7 +123,7 @@ end
 ---@option mode? "matrix"|"angles" = "matrix"  records of rotation matrices or of angles
 ---@option baud? integer [bit/s, 1 to 10000000] = 115200
 ---@option timeout? number [s, > 0, <= 3600] = 0.2  for a record
----@option attempts? integer [1 to 1000] = 20  maximum number of attempts to get a correct record
+---@option attempts? integer [1 to 1000] = 20  maximum number of attempts to get a correct record; ten if the flock sends nothing
 ---@option readings? integer [1 to 99] = 1  records of which each word is the median: no checksum protects them
 ---@return flock flock # `read`, `close`
 ---@effect edits
@@ -133,7 +134,7 @@ end
 --- > (pose.position - clench.vec3(0.3, 0.1, 0.2)):norm() < 3e-4  --> true
 return function(options)
   local o = new_options(subject, options)
-  local fields = {birds = o:get "birds", mode = modes[o:get "mode"], readings = o:get "readings"}
+  local fields = {max_silent = 10, birds = o:get "birds", mode = modes[o:get "mode"], readings = o:get "readings"}
   local flock = setmetatable(device.new(subject, o, fields), Flock)
   configure(flock)
   return flock

@@ -19,6 +19,13 @@ end
 --- A frame with its checksum.
 function modbus.frame(bytes) return bytes .. string.pack("<I2", modbus.crc(bytes)) end
 
+-- exactly `size` bytes; nil and the reason: "damaged" if only some of them were received
+local function read(port, size, seconds)
+  local bytes, why = port:read(size, seconds)
+  if not bytes and why == "timeout" and port:read_some(0) then why = "damaged" end
+  return bytes, why
+end
+
 -- the answer to a request, without checksum; nil and the reason if there is none. size: length of a correct answer; seconds: maximum waiting time
 local function exchange(master, request, size, seconds)
   local port = master.port
@@ -26,20 +33,27 @@ local function exchange(master, request, size, seconds)
   local ok, why = port:write(request, seconds)
   if not ok then return nil, why end
   local head
-  head, why = port:read(5, seconds)  -- length of an answer that reports an error
+  head, why = read(port, 5, seconds)  -- length of an answer that reports an error
   if not head then return nil, why end
   if head:byte(2) & 0x80 == 0 then
     local rest
-    rest, why = port:read(size - 5, seconds)
-    if not rest then return nil, why end
+    rest, why = read(port, size - 5, seconds)
+    if not rest then return nil, why == "timeout" and "damaged" or why end
     head = head .. rest
   end
   if modbus.crc(head:sub(1, -3)) ~= string.unpack("<I2", head, #head - 1) or head:sub(1, 1) ~= request:sub(1, 1) then return nil, "damaged" end
   return head:sub(1, -3)
 end
 
-local function ask(master, bytes, size, doing)
-  local answer = device.ask(master, doing, exchange, modbus.frame(bytes), size, master.timeout)
+-- Repeats a request until it is answered. start: first bytes of a correct answer, after the number of the slave; size: its length
+local function ask(master, bytes, start, size, doing)
+  local request = modbus.frame(bytes)
+  local answer = device.ask(master, doing, function()
+    local answer, why = exchange(master, request, size, master.timeout)
+    local is_right = answer and (answer:sub(2, 1 + #start) == start or answer:byte(2) == bytes:byte(2) | 0x80)
+    if is_right then return answer end
+    return nil, why or "damaged"
+  end)
   if answer:byte(2) == bytes:byte(2) then return answer end
   raise(("%s: the device rejects the request: %s (exception %d)"):format(master.subject, doing, answer:byte(3)), "stale")
 end
@@ -48,7 +62,8 @@ end
 ---@param master {subject: string, port: port, slave: integer, timeout: number, attempts: integer}
 ---@return string bytes  two per register
 function modbus.read(master, address, count)
-  local answer = ask(master, string.pack(">B B I2 I2", master.slave, read_code, address, count), 5 + 2 * count, "reading registers")
+  local request = string.pack(">B B I2 I2", master.slave, read_code, address, count)
+  local answer = ask(master, request, string.char(read_code, 2 * count), 5 + 2 * count, "reading registers")
   return answer:sub(4)
 end
 
@@ -58,7 +73,10 @@ end
 
 --- Writes registers.
 ---@param bytes string  two per register
-function modbus.write(master, address, bytes) ask(master, write_request(master, address, bytes), write_answer_size, "writing registers") end
+function modbus.write(master, address, bytes)
+  local request = write_request(master, address, bytes)
+  ask(master, request, request:sub(2, 6), write_answer_size, "writing registers")
+end
 
 --- The frame that writes registers.
 function modbus.write_frame(master, address, bytes) return modbus.frame(write_request(master, address, bytes)) end

@@ -60,6 +60,7 @@ end
 
 -- the line of a device; the error for one that cannot be opened says what to do
 local function open_line(path, baud)
+  if path == "" then raise("session: path: expected a serial line, such as /dev/ttyUSB0; " .. serial_lines.hint()) end
   local ok, port = pcall(clench.port.serial, {path = path, baud = baud})
   if ok then return port end
   if is_stopped(port) then error(port, 0) end

@@ -71,6 +71,7 @@ test("what does not fit a driver is refused in one sentence, before anything is 
   fails({baud = 0}, "baud: expected a number from 1 to 1e+07 bit/s, got 0")
   -- the system's reason, and what to do about it
   fails({}, "/dev/no_such_line: No such file or directory; ")
+  fails({path = ""}, "session: path: expected a serial line, such as /dev/ttyUSB0; ")
   fails({path = "/dev/null"}, "/dev/null: expected a serial line")
   local serial_lines = require "clench.session.serial_lines"
   t.equal(serial_lines.advice "x: Permission denied", "; the lines belong to the group dialout")

@@ -1,12 +1,14 @@
 --- Commands of the Sensors menu: connect devices, move the current hand by them, and calibrate a glove.
 local birds = require "clench.session.birds"
 local conditions = require "clench.session.conditions"
+local gloves = require "clench.session.glove"
 local real_hands = require "clench.session.real_hands"
 local sensed = require "clench.session.sensed"
 local sensors = require "clench.session.sensors"
 local serial_lines = require "clench.session.serial_lines"
 
 local file = {name = "path", type = "string", text = "a file of a glove's calibration"}
+local posture_file = {name = "path", type = "string", text = "a file of postures of a glove"}
 local glove, tracker, real_hand = sensors.has_reading "glove", sensors.has_reading "tracker", sensors.has_reading "hand"
 
 local function hand_and(condition)
@@ -43,18 +45,6 @@ local hand_parameters = {
   {name = "offsets", type = "table", optional = true, text = "for each value [rad or m]"},
 }
 
-local function record(session, args)
-  local postures = session.sensors.postures
-  postures[#postures + 1] = {sensors = sensors.reading(session, "glove"), dofs = args.dofs or session.hand.dofs}
-  return #postures
-end
-
-local function calibrate(session, args)
-  local calibration = clench.devices.calibrate {samples = session.sensors.postures, sensors_of = args.sensors_of}
-  session.sensors.calibration = calibration
-  return calibration.report
-end
-
 local function choose_bird(session, args) birds.choose(session, args.bird, args.target, args.mode) end
 
 local function load_calibration(session, args)
@@ -67,7 +57,6 @@ local function save_calibration(session, args)
   return args.path
 end
 
-local function has_postures(session) return #session.sensors.postures > 1, "fewer than two postures were recorded" end
 local function has_calibration(session) return session.sensors.calibration ~= nil, "the glove is not calibrated" end
 
 local function follow(session)
@@ -89,9 +78,20 @@ return {
            {name = "target", type = "string", default = "hand", text = "what the bird moves: hand (the current one), camera, none, or the name of a body or robot"}},
           choose_bird),
   setting("record_posture", "Record Posture…", hand_and(glove),
-          {{name = "dofs", type = "table", optional = true, text = "of the hand that wears the glove; those of the current hand by default [rad]"}}, record),
-  setting("clear_postures", "Clear Postures", has_postures, nil, function(session) session.sensors.postures = {} end),
-  setting("calibrate", "Calibrate Glove…", has_postures, {{name = "sensors_of", type = "table", text = "lists of sensors by the numbers of DOFs, {{5}, {6}}"}}, calibrate),
+          {{name = "dofs", type = "table", optional = true, text = "of the hand that wears the glove; those of the current hand by default [rad]"},
+           {name = "distance", type = "number", min = 0, max = 1, unit = "m", optional = true, text = "of two fingertips, instead of dofs; 0: they touch"}}, gloves.record),
+  setting("clear_postures", "Clear Postures", gloves.has_any, nil, function(session) session.sensors.postures = {} end),
+  setting("load_postures", "Load Postures…", nil, {posture_file}, function(session, args) return gloves.load_postures(session, args.path) end),
+  setting("save_postures", "Save Postures…", gloves.has_any, {posture_file}, function(session, args)
+    clench.devices.save_postures(args.path, session.sensors.postures)
+    return args.path
+  end),
+  setting("calibrate", "Calibrate Glove…", gloves.has_postures,
+          {{name = "sensors_of", type = "table", text = "lists of sensors by the numbers of DOFs, {{5}, {6}}"}}, gloves.calibrate),
+  setting("calibrate_tips", "Calibrate Fingertips…", gloves.has_tips,
+          {{name = "tips", type = "table", text = "names of the two links that have the fingertips, {'thumb', 'index'}"},
+           {name = "refine", type = "table", text = "DOFs whose coefficients are fitted, those of the thumb: {17, 18, 19, 20}"},
+           {name = "shell", type = "number", min = 0, max = 0.1, default = 0.008, unit = "m", text = "separation of the points of two tips that touch"}}, gloves.calibrate_tips),
   setting("load_calibration", "Load Calibration…", nil,
           {file, {name = "dofs", type = "table", optional = true, text = "rows of the calibration by the numbers of DOFs, {[2] = 1}"}}, load_calibration),
   setting("save_calibration", "Save Calibration…", has_calibration, {file}, save_calibration),

@@ -79,30 +79,38 @@ local function draw_motion(view, ui)
   button(view, ui, "Tracker Mode…", "tracker_mode")
 end
 
--- the largest residual of a calibration, and its DOF; nil: it was read from a file
-local function largest_residual(calibration)
+-- residuals of a calibration: the largest one and its DOF, and that of fingertips; nil: it was read from a file
+local function residual_text(view, calibration)
+  if calibration.tips then return ("fingertips within %s"):format(units.text(view, calibration.tips.max, "m")) end
   local largest, dof
-  for d = 1, calibration and calibration.report and #calibration.slopes or 0 do
+  for d = 1, calibration.report and #calibration.slopes or 0 do
     local row = calibration.report[d]
     if row and not (largest and largest >= row.max) then largest, dof = row.max, d end
   end
-  return largest, dof
+  return dof and ("residuals within %s (DOF %d)"):format(units.text(view, largest, "rad"), dof)
+end
+
+local function posture_text(postures)
+  local tips = 0
+  for _, posture in ipairs(postures) do tips = tips + (posture.distance and 1 or 0) end
+  return ("%d postures%s"):format(#postures, tips > 0 and (", %d of fingertips"):format(tips) or "")
 end
 
 local function draw_calibration(view, ui)
   local state = view.session.sensors
   ui:spacing()
-  ui:text(("%d postures, %s"):format(#state.postures, state.calibration and "calibrated" or "not calibrated"), {color = gray})
+  ui:text(("%s, %s"):format(posture_text(state.postures), state.calibration and "calibrated" or "not calibrated"), {color = gray})
   button(view, ui, "Record…", "record_posture")
   ui:same_line()
   button(view, ui, "Clear", "clear_postures")
-  ui:same_line()
   button(view, ui, "Calibrate…", "calibrate")
+  ui:same_line()
+  button(view, ui, "Fingertips…", "calibrate_tips")
   button(view, ui, "Load…", "load_calibration")
   ui:same_line()
   button(view, ui, "Save…", "save_calibration")
-  local largest, dof = largest_residual(state.calibration)
-  if dof then ui:text(("residuals within %s (DOF %d)"):format(units.text(view, largest, "rad"), dof), {color = gray}) end
+  local text = state.calibration and residual_text(view, state.calibration)
+  if text then ui:text(text, {color = gray}) end
 end
 
 local function draw(ui, view)
