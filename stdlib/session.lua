@@ -65,6 +65,7 @@ end
 local function add_command(self, command)
   if not self.commands[command.name] then self.order[#self.order + 1] = command.name end
   self.commands[command.name] = command
+  self.registrations = self.registrations + 1
 end
 
 --- Registers a command.
@@ -244,7 +245,8 @@ function Session:find(address) return arguments.find(self, address) end
 
 return function(world)
   if world ~= nil and clench.type(world) ~= "world" then raise("clench.session: expected a world, got " .. described(world)) end
-  local session = setmetatable({depth = 0, commands = {}, order = {}, subscribers = {}, selection = {}, stack = {}, postures = {}, jobs = {}, lists = {}, found = {}, sensors = {postures = {}, birds = {}},
+  local session = setmetatable({depth = 0, commands = {}, order = {}, registrations = 0, subscribers = {}, selection = {}, stack = {}, postures = {}, jobs = {}, lists = {},
+                                found = {}, sensors = {postures = {}, birds = {}},
                                 history = history.new()}, Session)
   for _, group in ipairs(groups) do
     for _, command in ipairs(require("clench.session.commands." .. group)) do add_command(session, command) end
