@@ -233,3 +233,28 @@ test("a narrow window has the choices of the tool bar, and commands in the menus
     view:close()
   end
 end)
+
+test("shortcuts edited by hand replace defaults; those that cannot work are named", function(t)
+  local _, view = open()
+  local file = os.tmpname()
+  local function apply(text)
+    clench.files.save_text(file, text)
+    view.lines = {}
+    bindings.reset(view)
+    preferences.keep(view, file)
+    local lines = {}
+    for i, line in ipairs(view.lines) do lines[i] = line.text end
+    return table.concat(lines, "\n")
+  end
+  t.equal(apply '{"keys": {"seek": "ctrl+p", "home": "shift+ctrl+h"}}', "")
+  t.equal(bindings.find(view, "ctrl+p").name, "seek")
+  t.equal(bindings.find(view, "ctrl+shift+h").name, "home")
+  t.equal(bindings.shown(view, "palette"), "")
+  local said = apply '{"keys": {"home": "k", "seek": "k", "exit": "ctrl+nokey", "panels": 3}}'
+  t.ok(said:find("keys: seek: 'k' belongs to 'home'", 1, true))
+  t.ok(said:find("keys: exit: .*unknown key 'nokey'"))
+  t.ok(said:find("keys: panels: expected a shortcut, or false, got 3", 1, true))
+  t.equal(view.bindings, {home = "k"})
+  view:close()
+  os.remove(file)
+end)
