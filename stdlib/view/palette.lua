@@ -35,8 +35,8 @@ end
 function palette.draw(view, ui)
   local state = view.palette
   if not state then return end
-  local width = 460
-  ui:window("Command Palette", {x = (ui.size[1] - width) / 2, y = 60, width = width, height = 330, title = false, scroll = false}, function(ui)
+  local width = 460 * view.scale
+  ui:window("Command Palette", {x = (ui.size[1] - width) / 2, y = 60 * view.scale, width = width, height = 330 * view.scale, title = false, scroll = false}, function(ui)
     ui:width(-1)
     local text, changed, entered = ui:text_input("##palette", state.text, {hint = "Type a command", on_enter = true, focus = not state.shown})
     state.shown, state.text = true, text

@@ -19,6 +19,9 @@ function units.of(view, unit)
   return 1, unit, "%.4g"
 end
 
+--- A value for display: zero if only rounding errors make it differ from zero, so that it has no sign.
+function units.shown(value) return math.abs(value) < 1e-12 and 0.0 or value end
+
 --- A value with its unit, for display.
 function units.text(view, value, unit)
   local factor, name, format = units.of(view, unit)
