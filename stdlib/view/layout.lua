@@ -10,6 +10,7 @@ local menus = require "clench.view.menus"
 local projections = require "clench.view.projections"
 local selection = require "clench.view.selection"
 local splitters = require "clench.view.splitters"
+local status = require "clench.view.status"
 local tools = require "clench.view.tools"
 local layout = {}
 
@@ -56,13 +57,22 @@ local function placed(view, place)
   return list
 end
 
--- panels in one window, each behind a tab
-local function draw_tabs(view, ui, name, list, rect)
+-- Panels in one window, each behind a tab. The open one is view.front[place], which a click or a script changes.
+local function draw_tabs(view, ui, place, list, rect)
   local names, by_name = {}, {}
   for i, panel in ipairs(list) do names[i], by_name[panel.name] = panel.name, panel end
+  local open = view.open_tabs
+  if not open or open.ui ~= ui then open = {ui = ui} end  -- another screen opens its first tab
+  view.open_tabs = open
+  local wanted = by_name[view.front[place]] and view.front[place] ~= open[place] and view.front[place] or nil
+  if wanted then view.needs_frame = true end
   rect.title = false
-  ui:window(name, rect, function(ui)
-    ui:tabs(name .. " tabs", names, function(ui, chosen) draw_panel(view, ui, by_name[chosen]) end)
+  ui:window(place, rect, function(ui)
+    ui:tabs(place .. " tabs", names, function(ui, shown)
+      open[place] = shown
+      if not wanted then view.front[place] = shown end
+      draw_panel(view, ui, by_name[shown])
+    end, wanted)
   end)
 end
 
@@ -133,13 +143,14 @@ local function names_of(list)
   return names
 end
 
-local function choose(view, ui, label, list, current, command, argument)
+local function choose(view, ui, text, list, current, command, argument)
   local names, index = names_of(list), 0
   for i, thing in ipairs(list) do
     if thing == current then index = i end
   end
   ui:width(95 * view.scale)
-  local chosen, changed = ui:combo(label, index, names)
+  local chosen, changed = ui:combo("##" .. argument, index, names)
+  ui:tooltip(("%s\nsession:run(%q, {%s = %q})"):format(text, command, argument, current and current.name or "…"))
   if changed then view:run(command, {[argument] = names[chosen]}) end
   ui:same_line()
 end
@@ -148,7 +159,7 @@ local function draw_bar(view, ui, y, width)
   ui:window("tool bar", {x = 0, y = y, width = width, height = bar_height * view.scale, title = false, scroll = false}, function(ui)
     for _, tool in ipairs(view.tools) do
       if ui:button(tool .. "##tool", {selected = view.current_tool == tool}) then tools.choose(view, tool) end
-      ui:tooltip(("%s  %s"):format(tool, bindings.shown(view, "tool " .. tool)))
+      ui:tooltip(("%s\n%s\nview:tool %q"):format(bindings.shown(view, "tool " .. tool), tools.hints[tool] or tool, tool))
       ui:same_line()
     end
     -- in a narrow window these are in the menus only
@@ -157,8 +168,8 @@ local function draw_bar(view, ui, y, width)
     end
     local world = view.session.world
     if world then
-      choose(view, ui, "##hand", world.robots, view.session.hand, "grasp.select_hand", "hand")
-      choose(view, ui, "##object", world.objects, view.session.object, "grasp.select_object", "object")
+      choose(view, ui, "Current hand, which commands of the menu Grasp move", world.robots, view.session.hand, "grasp.select_hand", "hand")
+      choose(view, ui, "Current object, which the hand grasps", world.objects, view.session.object, "grasp.select_object", "object")
       selection.draw_bar(view, ui)
       context.draw(view, ui)
     end
@@ -167,11 +178,7 @@ end
 
 local function draw_status(view, ui, y, width, height)
   ui:window("status bar", {x = 0, y = y, width = width, height = height, title = false, scroll = false}, function(ui)
-    local world = view.session.world
-    ui:text(view.status)
-    ui:same_line()
-    ui:text(("   %s   %s%s"):format(view.session.path or "Untitled", view.current_tool, view.session:is_modified() and "   modified" or ""),
-            {color = {0.5, 0.5, 0.55}})
+    status.draw(view, ui)
   end)
 end
 
@@ -179,12 +186,16 @@ local function draw_question(view, ui)
   if view.ask then
     local ask = view.ask
     local open = ui:window(ask.title, {width = 0, modal = true, can_close = true}, function(ui)
-      ui:width(320)
+      ui:width(320 * view.scale)
       local text, _, entered = ui:text_input("path", ask.text, {on_enter = true, focus = not ask.shown})
       ask.text, ask.shown = text, true
       if ui:button("Save##ask") or entered then
-        local ok, message = pcall(ask.done, ask.text)
-        if ok then view.ask = nil else ask.error = tostring(message) end
+        local ok, result = pcall(ask.done, ask.text)
+        if ok then
+          view.ask, view.status = nil, "Saved " .. (type(result) == "string" and result or ask.text)
+        else
+          ask.error = tostring(result)
+        end
       end
       ui:same_line()
       if ui:button "Cancel##ask" then view.ask = nil end
@@ -225,17 +236,17 @@ end
 --- Draws all panels.
 function layout.draw(view, ui)
   local width, height = ui.size[1], ui.size[2]
-  local menu, status = menu_height * view.scale, status_height * view.scale
+  local menu, below_all = menu_height * view.scale, status_height * view.scale
   menus.draw(view, ui)
   draw_bar(view, ui, menu, width)
   local top = menu + bar_height * view.scale
   local left, right, below = splitters.size(view, "left"), splitters.size(view, "right"), splitters.size(view, "bottom")
-  local bottom = height - status - below
+  local bottom = height - below_all - below
   draw_column(view, ui, "left", 0, top, left, bottom - top)
   draw_column(view, ui, "right", width - right, top, right, bottom - top)
   draw_bottom(view, ui, 0, bottom, width, below)
   view.edges = edges_of(view, width, height)
-  draw_status(view, ui, height - status, width, status)
+  draw_status(view, ui, height - below_all, width, below_all)
   dialog.draw(view, ui)
   compare.draw(view, ui)
   projections.draw_windows(view, ui)

@@ -21,16 +21,16 @@ local function draw_controls(view, ui, state, start)
   local job = state.job
   local busy = is_busy(job) == true
   ui:disabled(busy, function(ui)
-    if ui:button("Start", {width = 80}) then start() end
+    if ui:button("Start", {width = 80 * view.scale}) then start() end
   end)
   ui:same_line()
   ui:disabled(not busy, function(ui)
     local paused = job and job.state == "paused"
-    if ui:button(paused and "Resume" or "Pause", {width = 80}) then
+    if ui:button(paused and "Resume" or "Pause", {width = 80 * view.scale}) then
       if paused then job:resume() else job:pause() end
     end
     ui:same_line()
-    if ui:button("Stop", {width = 80}) then job:stop() end
+    if ui:button("Stop", {width = 80 * view.scale}) then job:stop() end
   end)
 end
 
@@ -46,7 +46,7 @@ local function draw_steps(view, ui, state, grasps)
   local rank = math.min(state.rank or 0, count)
   local function step(label, to, enabled)
     ui:disabled(not enabled, function(ui)
-      if ui:button(label, {width = 50}) then show(view, state, to) end
+      if ui:button(label, {width = 50 * view.scale}) then show(view, state, to) end
     end)
     ui:same_line()
   end

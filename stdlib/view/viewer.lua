@@ -1,4 +1,5 @@
 --- The viewer: a session's world in a window or off-screen, with menus, panels and tools. Every action is a command of the session.
+local arguments = require "clench.session.arguments"
 local autosave = require "clench.view.autosave"
 local bindings = require "clench.view.bindings"
 local camera = require "clench.view.camera"
@@ -7,7 +8,6 @@ local class = require "clench.class"
 local described = require "clench.described"
 local drop = require "clench.view.drop"
 local echo = require "clench.view.echo"
-local error_text = require "clench.error_text"
 local follow = require "clench.view.follow"
 local input = require "clench.view.input"
 local layout = require "clench.view.layout"
@@ -17,6 +17,7 @@ local preferences = require "clench.view.preferences"
 local raise = require "clench.raise"
 local replay = require "clench.view.replay"
 local splitters = require "clench.view.splitters"
+local status = require "clench.view.status"
 local stereo = require "clench.view.stereo"
 local tools = require "clench.view.tools"
 local user_files = require "clench.view.user_files"
@@ -56,18 +57,11 @@ function Viewer:run(name, args)
   self:fail(result)
 end
 
---- Shows an error in the console and in the status bar.
-function Viewer:fail(problem)
-  self.status = error_text(problem)
-  self:print(self.status, "error")
-end
+--- Shows an error in the console and in the status bar, until the next action.
+function Viewer:fail(problem) status.fail(self, problem) end
 
 --- The address of a body or robot.
-function Viewer:address(thing)
-  local escaped = function(name) return (name:gsub("/", "\\/")) end
-  if clench.type(thing) == "robot" or not thing.robot then return escaped(thing.name) end
-  return escaped(thing.robot.name) .. "/" .. escaped(thing.name)
-end
+function Viewer:address(thing) return arguments.address(thing) end
 
 --- Restores the camera that Set Home has stored; without one, frames the grasp.
 ---@param all? boolean  true: frames everything instead
@@ -299,9 +293,10 @@ return function(options)
   end
   view.subscriptions[#view.subscriptions + 1] = session:subscribe("changed", function(event)
     if not event.selection then replay.leave(view) end
+    status.settle(view, event)
     echo.changed(view, event)
   end)
-  view.subscriptions[#view.subscriptions + 1] = session:subscribe("diagnostic", function(d) view:print(tostring(d.message or d.text or d), d.severity) end)
+  view.subscriptions[#view.subscriptions + 1] = session:subscribe("diagnostic", function(d) status.log(view, d) end)
   if options.window then
     local settings, state = user_files.settings(), user_files.state()
     view.kept = {preferences.keep(view, settings and settings .. "/viewer.json"), autosave.keep(view, state)}

@@ -137,10 +137,10 @@ test("two clicks measure a distance, three an angle", function(t)
   local a, b, c = view:pick(300, 120).point, view:pick(330, 120).point, view:pick(320, 160).point
   view:click(300, 120)
   view:click(330, 120)
-  t.close(measure.values(view.measured), (a - b):norm(), 1e-9)
+  t.close(measure.values(measure.points(view)), (a - b):norm(), 1e-9)
   t.ok(view.status:find "^Distance 0%.", view.status)
   view:click(320, 160)
-  local _, angle = measure.values(view.measured)
+  local _, angle = measure.values(measure.points(view))
   t.close(math.cos(angle), (a - b):unit():dot((c - b):unit()), 1e-6)
   t.ok(view.status:find "^Angle", view.status)
   view:click(300, 120)
@@ -188,5 +188,20 @@ test("the way of the mouse to the place of a press moves neither the camera nor 
   t.equal(session.selection[1] == session.world:robot "barrett" or session.selection[1].robot == session.world:robot "barrett", true)
   t.equal(session.world:hash(), hash)
   t.ok(same(view.camera, before))
+  view:close()
+end)
+
+test("measured points move with their bodies, and vanish with them", function(t)
+  local session, view = open()
+  local mug, hand = session.object, session.hand
+  local a, b = hand.base.pose.position, mug.pose.position
+  view.measured = {{body = hand.base, point = clench.vec3(0, 0, 0)}, {body = mug, point = clench.vec3(0, 0, 0)}}
+  t.close(measure.values(measure.points(view)), (a - b):norm(), 1e-12)
+  session:run("body.move", {body = "mug", pose = {xyz = {a.x, a.y, a.z - 0.3}, rpy = {0.2, 0.3, 0.4}}})
+  view:frame()
+  t.close(measure.values(measure.points(view)), 0.3, 1e-12)
+  session:run("body.remove", {body = "mug"})
+  t.equal(measure.points(view), {})
+  t.equal(view.measured, {})
   view:close()
 end)

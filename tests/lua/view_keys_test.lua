@@ -179,7 +179,7 @@ test("keys, navigation, sizes and the panel in front are kept, and damaged value
   t.equal(bindings.find(other, "ctrl+k").name, "grasp.autograsp")
   t.equal(other.navigation, "Blender")
   t.equal(other.sizes, {left = 264, right = 264, bottom = 250})
-  t.equal(other.front, {right = "Friction"})
+  t.equal(other.front, {bottom = "Console", right = "Friction"})
   other:close()
   clench.files.save_text(file, '{"keys": {"exit": "ctrl+nokey", "home": 3, "panels": false}, "sizes": {"left": "wide", "right": -5, "bottom": 1e9}, "front": [1], "navigation": "Maya"}')
   other = clench.view.offscreen {session = session, size = {900, 700}}

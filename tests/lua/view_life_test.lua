@@ -210,6 +210,9 @@ test("settings and recent files are kept", function(t)
   view:menu "View/Millimeters"
   view:menu "View/Degrees"
   view.hidden.Plots = true
+  view:frame()
+  view:click_label "History"
+  view:click_label "Forces"
   kept.tick(0)
   view:close()
   local other = clench.view.offscreen {session = session, size = {640, 480}}
@@ -217,6 +220,12 @@ test("settings and recent files are kept", function(t)
   t.equal(other.dark, true)
   t.equal(other.units, {length = "mm", angle = "deg"})
   t.equal(other.hidden.Plots, true)
+  t.equal(other.front, {bottom = "History", right = "Forces"})
+  for _ = 1, 2 do other:frame() end
+  t.equal(other.front.bottom, "History")
+  t.ok(is_shown(other, "1  Open…") or is_shown(other, "Open"), "the panel History is shown")
+  other:screenshot {size = {700, 500}}  -- another screen does not choose another tab
+  t.equal(other.front.bottom, "History")
   t.equal(other.recent, {path})
   session:run "world.new"
   other:frame()

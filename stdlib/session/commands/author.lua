@@ -70,7 +70,7 @@ local function tug(hand, object, options)
 end
 
 return {
-  {name = "grasp.close_in_phases", label = "Close in Phases…", menu = "Grasp", enabled = conditions.hand_and_object, parameters = {hand, pregrasp, list},
+  {name = "grasp.close_in_phases", label = "Close in Phases…", menu = "Grasp/Author", section = 4, enabled = conditions.hand_and_object, parameters = {hand, pregrasp, list},
    run = function(session, args)
      check("grasp.close_in_phases", args)
      local robot = arguments.find_robot(session, args.hand)
@@ -88,7 +88,7 @@ return {
      table.move(phases.lines(script.name_of(robot), args.phases or {}), 1, #(args.phases or {}), #lines + 1, lines)
      return table.concat(lines, "\n")
    end},
-  {name = "grasp.tug", label = "Tug Test…", menu = "Grasp", enabled = conditions.hand_and_object, reads = true,
+  {name = "grasp.tug", label = "Tug Test…", menu = "Grasp/Author", section = 4, enabled = conditions.hand_and_object, reads = true,
    parameters = {hand, {name = "force", type = "number", min = 1e-9, max = 1e6, unit = "N", default = 1, text = "force on the object along each axis of the world in turn"},
                  {name = "seconds", type = "number", min = 1e-3, max = 1000, unit = "s", default = 0.5, text = "time in each direction"}},
    run = function(session, args)
@@ -96,7 +96,7 @@ return {
      local job = clench.job(tug, {args = {robot, object, {force = args.force, seconds = args.seconds, mass = object.mass}}, name = "tug test"})
      return session:add_job(job, "grasp.tug")
    end},
-  {name = "grasp.author", label = "Author Grasp…", menu = "Grasp", enabled = conditions.hand_and_object, reads = true,
+  {name = "grasp.author", label = "Author Grasp…", menu = "Grasp/Author", section = 4, enabled = conditions.hand_and_object, reads = true,
    parameters = {hand, {name = "name", type = "string", text = "name of the grasp; an authored one of the same name is replaced"},
                  {name = "notes", type = "string", optional = true, text = "any text"},
                  {name = "confidence", type = "number", min = 0, max = 1, optional = true, text = "of the author in the grasp"}, pregrasp, list,
@@ -110,7 +110,7 @@ return {
      grasps[place_of(grasps, args.name)] = grasp
      return grasp
    end},
-  {name = "grasp.forget", label = "Forget Authored Grasp…", menu = "Grasp", reads = true,
+  {name = "grasp.forget", label = "Forget Authored Grasp…", menu = "Grasp/Author", section = 4, reads = true,
    enabled = function(session) return session.authored ~= nil and #session.authored > 0, "no grasp was authored" end,
    parameters = {{name = "name", type = "string", text = "name of an authored grasp"}},
    run = function(session, args)

@@ -21,7 +21,7 @@ local function options_of(args) return args.pose and {pose = clench.type(args.po
 local hand = {name = "hand", type = "robot", optional = true, text = "address of the robot; the current hand by default"}
 
 return {
-  {name = "body.mount", label = "Mount on…", menu = "Element", enabled = two_robots,
+  {name = "body.mount", label = "Mount on…", menu = "Element", section = 2, enabled = two_robots,
    parameters = {hand, {name = "on", type = "robot", text = "address of the robot that carries it, by the last link of its first chain"},
                  {name = "pose", type = "pose", optional = true, text = "of its base in that link; by default they coincide"}},
    run = function(session, args)
@@ -35,7 +35,7 @@ return {
      return ("%s:mount_on(%s%s)"):format(script.name_of(arguments.find_robot(session, args.hand)), script.name_of(arguments.find_robot(session, args.on)),
                                          options and ", " .. script.literal(options) or "")
    end},
-  {name = "body.dismount", label = "Dismount", menu = "Element", enabled = carried, parameters = {hand},
+  {name = "body.dismount", label = "Dismount", menu = "Element", section = 2, enabled = carried, parameters = {hand},
    run = function(session, args) arguments.find_robot(session, args.hand):dismount() end,
    script = function(session, args) return script.name_of(arguments.find_robot(session, args.hand)) .. ":dismount()" end},
 }

@@ -70,7 +70,7 @@ local function draw_phase(view, ui, phase, i)
   if phase.kind ~= "approach" then return dropped end
   local factor, unit, format = units.of(view, "m")
   ui:same_line()
-  ui:width(80)
+  ui:width(80 * view.scale)
   local value = edit.number(view, ui, ("%s##phase%d"):format(unit, i), "phase reach " .. i, phase.reach * factor, {speed = factor * 1e-3, min = 0, max = factor * 2, format = format})
   ui:tooltip "Longest travel"
   if value then phase.reach = math.max(0, value / factor) end
@@ -119,7 +119,7 @@ end
 
 local function draw_tug(view, ui, state)
   heading(ui, "Tug test", "In a copy of the world, a force pulls at the object along six directions in turn.")
-  ui:width(90)
+  ui:width(90 * view.scale)
   local value = edit.number(view, ui, "force [N]##tug", "tug force", state.force, {speed = 0.05, min = 0.01, max = 1000, format = "%.3g"})
   if value then state.force = math.max(0.01, value) end
   ui:same_line()

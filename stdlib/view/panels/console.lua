@@ -87,9 +87,15 @@ local function draw_input(view, ui)
   end
 end
 
+local hint = [[
+Each command appears here as Lua. Type Lua below, for example:
+  hand:autograsp()      hand.dofs      object.mass = 0.2      world:contacts(hand, object)      help "robot:autograsp"
+session, world, hand, object and view are defined. Ctrl+P finds a command by a few letters, ? lists the keys.]]
+
 local function draw(ui, view)
   local colors = view.dark and dark or light
   ui:child("lines", {height = -ui.line_height}, function(ui)
+    if #view.lines == 0 then ui:text(hint, {wrap = true, color = {0.5, 0.5, 0.5}}) end
     for i = math.max(1, #view.lines - 200), #view.lines do ui:text(view.lines[i].text, {wrap = true, color = colors[view.lines[i].kind]}) end
     if view.scroll_console then ui:scroll_to_end() view.scroll_console = false end
   end)

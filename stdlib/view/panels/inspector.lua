@@ -1,4 +1,5 @@
 --- The selection: pose, DOFs and body properties, in the units of the user. A number is dragged to change it, or typed after a double click.
+local facts = require "clench.view.world_facts"
 local properties = require "clench.view.properties"
 local units = require "clench.view.units"
 
@@ -69,9 +70,7 @@ end
 
 local function draw(ui, view)
   local selection = view.session.selection
-  if #selection == 0 then
-    return ui:text("Nothing is selected: click in the tree, or in the picture with the tool Select.", {color = {0.5, 0.5, 0.5}, wrap = true})
-  end
+  if #selection == 0 then return facts.draw(view, ui) end
   if #selection == 1 then
     draw_one(ui, view, selection[1])
   else

@@ -26,8 +26,8 @@ local function draw(ui, view)
     local last = values[#values]
     ui:group(function(ui)
       ui:text(curve[1] .. (last and ("  %.4g"):format(last) or ""))
-      ui:width(220)
-      if #values > 1 then ui:plot("##" .. curve[2], values, {min = 0, height = 70}) else ui:text("Nothing has moved yet.", {color = {0.5, 0.5, 0.5}}) end
+      ui:width(220 * view.scale)
+      if #values > 1 then ui:plot("##" .. curve[2], values, {min = 0, height = 70 * view.scale}) else ui:text("Nothing has moved yet.", {color = {0.5, 0.5, 0.5}}) end
     end)
     ui:same_line(24)
   end

@@ -83,6 +83,11 @@ local function draw_contacts(view, ui, contacts)
       ui:next_column()
       if ui:selectable(("%d %s##contact%d"):format(i, short_name(contact, view.session.hand), i), view.highlighted == i) then
         view.highlighted = view.highlighted ~= i and i or nil
+        view.listed = view.highlighted
+      end
+      if view.highlighted == i and view.listed ~= i then
+        view.listed, view.needs_frame = i, true
+        ui:reveal()  -- it was clicked in the picture
       end
       local p = contact.point
       ui:tooltip(("at %s, %s, %s, mu %.3g, gap %s%s"):format(units.text(view, p.x, "m"), units.text(view, p.y, "m"), units.text(view, p.z, "m"), contact.mu,

@@ -27,7 +27,7 @@ local function draw_speed(view, ui)
     names[i] = ("speed %g"):format(speed)
     if speed == (view.replay_speed or 1) then index = i end
   end
-  ui:width(100)
+  ui:width(100 * view.scale)
   local chosen, changed = ui:combo("##replay speed", index, names)
   if changed then view.replay_speed = replay.speeds[chosen] end
   ui:same_line()
