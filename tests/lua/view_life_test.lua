@@ -166,6 +166,53 @@ test("work left by an ended process is offered and restored", function(t)
   os.remove(folder)
 end)
 
+test("work of a process that has ended is offered even while its parent has not noticed", function(t)
+  local folder = new_folder()
+  os.execute(("mkdir '%s'"):format(folder))
+  local ended <close> = io.popen "echo $$"  -- until it is closed, it is a zombie
+  local id = ended:read "l"
+  local function stat() return text_at(("/proc/%s/stat"):format(id)) end
+  local last = clench.clock() + 20
+  while not stat():find "%) Z " and clench.clock() < last do end
+  local start = stat():match("%)" .. (" %S+"):rep(19) .. " (%S+)")
+  clench.files.save_text(folder .. "/autosave-1.lua", ('-- autosave {"id":"%s","start":"%s","time":"now"}\n\n\nlines\n'):format(id, start))
+  t.equal(#autosave.left(folder), 1)
+  os.execute(("rm -r '%s'"):format(folder))
+end)
+
+test("of several viewers that start to store at once, each has a name of its own", function(t)
+  local folder = new_folder()
+  local file = folder .. "/new/autosave-1.lua"
+  local user_files = require "clench.view.user_files"
+  t.ok(user_files.claim(file))
+  t.ok(not user_files.claim(file))
+  t.ok(not user_files.claim(folder))
+  t.ok(user_files.claim "/dev/full/autosave-1.lua")
+  t.ok(user_files.claim "/proc/autosave-1.lua")
+  os.execute(("rm -r '%s'"):format(folder))
+end)
+
+test("Discard removes what was offered, and nothing that has its name since", function(t)
+  local session, view, path = open()
+  local folder = new_folder()
+  local file = folder .. "/autosave-1.lua"
+  os.execute(("mkdir '%s'"):format(folder))
+  local ended = '-- autosave {"id":"999999999","start":"1","time":"now"}\n\n\n'
+  for _, of_another in ipairs {false, true} do
+    clench.files.save_text(file, ended)
+    view.left = autosave.left(folder)
+    if of_another then clench.files.save_text(file, "of another viewer") end
+    view:frame()
+    view:frame()
+    view:click_label "Discard"
+    t.equal(#view.left, 0)
+    t.equal(text_at(file), of_another and "of another viewer" or nil)
+  end
+  view:close()
+  os.remove(path)
+  os.execute(("rm -r '%s'"):format(folder))
+end)
+
 test("a full disk is reported once in the console", function(t)
   local session, view, path = open()
   local kept = autosave.keep(view, "/dev/full")

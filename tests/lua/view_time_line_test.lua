@@ -142,5 +142,10 @@ test("a recorded run is saved as a film; without one there is nothing to save", 
   t.ok(#file:read "a" > 100000)
   os.remove(path)
   t.fails(function() session:run("dynamics.save_film", {path = "run.txt"}) end, "ends in .html, .gif, .mp4 or .png")
+  -- the run of another world is not that of the open one
+  session:run "world.new"
+  t.fails(function() session:run("dynamics.save_film", {path = path}) end, "no run was recorded")
+  session:undo()
+  t.ok(session.commands["dynamics.save_film"].enabled(session))
   view:close()
 end)
