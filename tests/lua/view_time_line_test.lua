@@ -144,3 +144,20 @@ test("a recorded run is saved as a film; without one there is nothing to save", 
   t.fails(function() session:run("dynamics.save_film", {path = "run.txt"}) end, "ends in .html, .gif, .mp4 or .png")
   view:close()
 end)
+
+test("a run that is too short to be recorded, and one that is slower than real time, are described as such", function(t)
+  local session, view = open()
+  item(view, "Runs of the dynamics are recorded, and can be replayed here.")
+  run(session, view, "dynamics.run", {seconds = 0.01})
+  item(view, "The last run was too short to be recorded: states are stored 30 times per simulated second.")
+  view:click_label "Play Dynamics"
+  session.playing.began = loop.time() - 100
+  loop.run(0.03)
+  view:frame()
+  local found = ""
+  for _, widget in ipairs(view:items()) do found = widget.label:match "^recording, .*" or found end
+  local share = tonumber(found:match "^recording, [%d.]+ s, at ([%d.e-]+) of real time$")
+  t.ok(share and share > 0 and share < 0.02, found)
+  view:click_label "Pause Dynamics"
+  view:close()
+end)

@@ -37,7 +37,7 @@ local function draw_choice(view, ui)
     by_name[measure.name] = measure
     if not index_of(view.measures, measure.name) then names[#names + 1] = measure.name end
   end
-  ui:width(-50)
+  ui:width(-50 * view.scale)
   local chosen, changed = ui:combo("more", 1, names)
   if changed and chosen > 1 then
     view.measures[#view.measures + 1] = names[chosen]
