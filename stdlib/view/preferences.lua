@@ -24,7 +24,7 @@ local function named(values) return next(values) and values or nil end
 local function text_of(view)
   local size = view.ui.size
   return clench.json.encode({dark = view.dark, units = view.units, hidden = sorted_keys(view.hidden), navigation = view.navigation,
-                             keys = named(view.bindings), sizes = view.sizes, front = named(view.front),
+                             keys = named(view.bindings), sizes = view.sizes, shares = named(view.shares), front = named(view.front),
                              size = {math.tointeger(size[1]), math.tointeger(size[2])}, recent = view.recent}, {indent = 2}) .. "\n"
 end
 
@@ -74,6 +74,8 @@ local function apply_arrangement(view, said)
   end
   view.bindings = values_of(said.keys, function(value) return value == false or type(value) == "string" and (pcall(keys.codes, value)) end)
   view.front = values_of(said.front, function(value) return type(value) == "string" end)
+  local shares = values_of(said.shares, function(value) return type(value) == "number" and value >= splitters.min_share and value <= 1 - splitters.min_share end)
+  view.shares = {left = shares.left, right = shares.right}
   local sizes = values_of(said.sizes, function(value) return type(value) == "number" and value >= splitters.min and value <= 8192 end)
   for name in pairs(view.sizes) do view.sizes[name] = sizes[name] or view.sizes[name] end
 end
