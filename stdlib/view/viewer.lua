@@ -103,7 +103,7 @@ function Viewer:save_script(path) clench.files.save_text(path, self.session:scri
 local function follow_world(self)
   local world = self.session.world
   if not world or self.shown_world == world then return end
-  self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author, self.dialogs = world, nil, {}, nil, nil, nil, {}
+  self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author, self.curves, self.dialogs = world, nil, {}, nil, nil, nil, nil, {}
   self:home()
 end
 
