@@ -90,7 +90,7 @@ local function apply(view, said)
   apply_arrangement(view, said)
 end
 
---- Records a file that was opened.
+--- Records a file that was opened or saved.
 function preferences.add_recent(view, path)
   path = user_files.absolute(path)
   local list = {path}
@@ -117,12 +117,17 @@ function preferences.keep(view, path)
   local ok, said = pcall(preferences.read, path)
   if not ok then view:print(said, "error") end
   apply(view, ok and said or {})
-  if view.session.path then preferences.add_recent(view, view.session.path) end
-  view.subscriptions[#view.subscriptions + 1] = view.session:subscribe("changed", function(event)
-    if event.command == "world.open" and view.session.path then preferences.add_recent(view, view.session.path) end
-  end)
+  local known
+  local function follow_path()
+    local now = view.session.path
+    if now and now ~= known then preferences.add_recent(view, now) end
+    known = now
+  end
+  follow_path()
+  view.subscriptions[#view.subscriptions + 1] = view.session:subscribe("changed", follow_path)
   local saved, looked, failed
   local function save()
+    follow_path()  -- Save As changes nothing else
     local text = text_of(view)
     if not path or text == saved then return end
     local done, problem = pcall(user_files.save, path, text)
