@@ -62,8 +62,20 @@ function splitters.update(view)
   return true
 end
 
+-- the gaps within columns have the color of panels
+local function fill_gaps(view, ui)
+  for _, name in ipairs {"within left", "within right"} do
+    local edge = view.edges[name]
+    if edge then
+      local top, bottom = edge.at - 2, edge.at + splitters.gap + 2  -- its smooth border is under the panels
+      ui:line({edge.from, top, edge.to, top, edge.to, bottom, edge.from, bottom}, {color = view.dark and {0.2, 0.21, 0.23} or {0.85, 0.86, 0.88}, filled = true})
+    end
+  end
+end
+
 --- Marks the edge under the mouse.
 function splitters.draw(view, ui)
+  fill_gaps(view, ui)
   local name = view.splitting and view.splitting.name or view.edge
   local edge = name and view.edges[name]
   if not edge then return end

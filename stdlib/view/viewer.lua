@@ -152,8 +152,8 @@ function Viewer:frame()
     draw_world(self, ui)
     if self.panels_visible then
       tools.draw(self, ui)
-      splitters.draw(self, ui)
       layout.draw(self, ui)
+      splitters.draw(self, ui)  -- behind the panels
     end
     palette.draw(self, ui)
     bindings.update(self)
