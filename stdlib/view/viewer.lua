@@ -97,7 +97,7 @@ function Viewer:save_script(path) clench.files.save_text(path, self.session:scri
 local function follow_world(self)
   local world = self.session.world
   if not world or self.shown_world == world then return end
-  self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author, self.dialogs = world, nil, {}, nil, nil, nil, {}
+  self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author, self.curves, self.dialogs = world, nil, {}, nil, nil, nil, nil, {}
   self:home()
 end
 
@@ -146,8 +146,8 @@ function Viewer:frame()
     draw_world(self, ui)
     if self.panels_visible then
       tools.draw(self, ui)
-      splitters.draw(self, ui)
       layout.draw(self, ui)
+      splitters.draw(self, ui)  -- behind the panels
     end
     palette.draw(self, ui)
     bindings.update(self)
@@ -281,7 +281,7 @@ return function(options)
   local session = options.session
   local view = setmetatable({
     session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m", angle = "rad"}, edits = {}, front = {}, display = {},
-    panels_visible = true, picture_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, bindings = {}, edges = {}, scale = 1, sizes = {left = splitters.default.left, right = splitters.default.right, bottom = splitters.default.bottom}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
+    panels_visible = true, picture_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, bindings = {}, edges = {}, shares = {}, scale = 1, sizes = {left = splitters.default.left, right = splitters.default.right, bottom = splitters.default.bottom}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
   }, Viewer)
   local size = options.size or options.window and preferences.size()
   view.ui = clench.ui {size = size, window = options.window, title = options.title, dark = options.dark, scale = options.scale}

@@ -451,3 +451,14 @@ test("bodies are put on others: straight down, or at the nearest free spot", fun
   end
   t.fails(function() other:run("body.place_on", {body = hand.name}) end, ("'%s' is mounted on '%s'"):format(hand.name, puma.name))
 end)
+
+test("the current hand of a world is its first robot with fingers, not the arm that carries it", function(t)
+  local session = clench.session()
+  session:open("worlds/puma_barrett_glass.wld", {root = "."})
+  t.equal(session.world.robots[1].name, "puma560")
+  t.equal(session.hand.name, "barrett")
+  session:run("body.remove", {body = "barrett"})
+  t.equal(session.hand.name, "puma560")
+  session:undo()
+  t.equal(session.hand.name, "barrett")
+end)

@@ -140,6 +140,43 @@ test("edges of the panels are dragged, within limits, and the picture is not", f
   view:close()
 end)
 
+test("the edge between two panels of a column is dragged, and kept", function(t)
+  local session, view = open()
+  local file = os.tmpname()
+  local kept = preferences.keep(view, file)
+  local camera = view.camera
+  local function top_of(label)
+    view:frame()
+    for _, item in ipairs(view:items()) do
+      if item.label == label and item.kind == "window" then return item.y end
+    end
+  end
+  local before, edge = top_of "Grasp Quality", view.edges["within left"]
+  view:drag(100, edge.at + 2, 100, edge.at + 62)
+  t.close(top_of "Grasp Quality", before + 60, 1.01)
+  view:drag(100, edge.at + 62, 100, 690)
+  t.close(view.shares.left, 0.85, 1e-12)
+  t.equal(view.shares.right, nil)
+  t.ok(view.camera == camera)
+  -- a tall panel keeps the user's share
+  local right = view.edges["within right"]
+  view:drag(800, right.at + 2, 800, right.at - 58)
+  local share = view.shares.right
+  view:click_label "Author"
+  t.equal(view.shares.right, share)
+  t.close(view.edges["within right"].at, right.at - 60, 1.01)
+  kept.finish()
+  view:close()
+  local other = clench.view.offscreen {session = session, size = {900, 700}}
+  preferences.keep(other, file)
+  t.close(other.shares.right, share, 1e-12)
+  clench.files.save_text(file, '{"shares": {"left": 0.99, "right": "half", "bottom": 0.5}}')
+  preferences.keep(other, file)
+  t.equal(other.shares, {})
+  other:close()
+  os.remove(file)
+end)
+
 test("on a monitor of twice the resolution bars and panels are twice as large, and do not cover each other", function(t)
   local session = clench.session()
   session:open("worlds/barrett_mug.wld", {root = "."})

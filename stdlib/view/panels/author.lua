@@ -140,9 +140,9 @@ end
 
 local function draw_notes(view, ui, state)
   heading(ui, "Name and notes")
-  ui:width(-90)
+  ui:width(-90 * view.scale)
   state.name = ui:text_input("name##author", state.name)
-  ui:width(-90)
+  ui:width(-90 * view.scale)
   local value, changed = ui:slider("confidence", state.confidence, {min = 0, max = 1, format = "%.2f"})
   if changed then state.confidence = math.max(0, math.min(1, value)) end
   state.notes = ui:text_input("##notes", state.notes, {lines = 3, hint = "notes"})

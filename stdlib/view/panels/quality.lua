@@ -1,4 +1,5 @@
 --- Measures of the current grasp that the user has chosen, and its contacts with their forces; both are updated when something moves.
+local curves = require "clench.view.curves"
 local replay = require "clench.view.replay"
 local units = require "clench.view.units"
 local gray = {0.5, 0.5, 0.5}
@@ -37,7 +38,7 @@ local function draw_choice(view, ui)
     by_name[measure.name] = measure
     if not index_of(view.measures, measure.name) then names[#names + 1] = measure.name end
   end
-  ui:width(-50)
+  ui:width(-50 * view.scale)
   local chosen, changed = ui:combo("more", 1, names)
   if changed and chosen > 1 then
     view.measures[#view.measures + 1] = names[chosen]
@@ -103,7 +104,10 @@ end
 local function draw(ui, view)
   local session = view.session
   view.measures, view.known_measures = view.measures or {"epsilon", "volume"}, view.known_measures or clench.measures()
-  if view.quality_stamp ~= view.stamp then view.quality, view.quality_stamp = refresh(view), view.stamp end
+  if view.quality_stamp ~= view.stamp then
+    view.quality, view.quality_stamp = refresh(view), view.stamp
+    curves.sample(view)
+  end
   local quality = view.quality
   if not quality then return ui:text("A hand and an object are needed.", {color = gray, wrap = true}) end
   ui:text(("%s on %s"):format(session.hand.name, session.object.name))
