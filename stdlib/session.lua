@@ -244,7 +244,7 @@ function Session:find(address) return arguments.find(self, address) end
 
 return function(world)
   if world ~= nil and clench.type(world) ~= "world" then raise("clench.session: expected a world, got " .. described(world)) end
-  local session = setmetatable({depth = 0, commands = {}, order = {}, subscribers = {}, selection = {}, stack = {}, postures = {}, jobs = {}, lists = {}, found = {}, sensors = {postures = {}},
+  local session = setmetatable({depth = 0, commands = {}, order = {}, subscribers = {}, selection = {}, stack = {}, postures = {}, jobs = {}, lists = {}, found = {}, sensors = {postures = {}, birds = {}},
                                 history = history.new()}, Session)
   for _, group in ipairs(groups) do
     for _, command in ipairs(require("clench.session.commands." .. group)) do add_command(session, command) end

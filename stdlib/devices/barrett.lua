@@ -25,21 +25,32 @@ local function exchange(self, command, seconds)
   local ok, why = self.port:write(command .. "\r", seconds)
   if not ok then return nil, why end
   local text
-  text, why = self.port:read_until("=> ", seconds)
+  text, why = device.read_until(self.port, "=> ", seconds)
   if not text then return nil, why end
-  -- a different echo: the hand has received another command, or the reply is damaged
-  if text:sub(1, #command) ~= command or text:find "[^\r\n\t -~]" then return nil, "damaged" end
+  -- a different or longer echo: the hand has received another command, or the reply is damaged
+  if text:sub(1, #command) ~= command or not text:find("^[\r\n]", #command + 1) or text:find "[^\r\n\t -~]" then return nil, "damaged" end
   return text:sub(#command + 1)
 end
 
+local function error_of(reply) return reply and reply:match "ERR%s*(%d+)" end
+
 local function check_reply(command, reply)
-  local code = reply:match "ERR%s*(%d+)"
+  local code = error_of(reply)
   if code then raise(("%s: the hand reports error %s after %s"):format(subject, code, command), "stale") end
   return reply
 end
 
--- sends a command until it is answered
-local function ask(self, command, seconds) return check_reply(command, device.ask(self, command, exchange, command, seconds)) end
+-- Sends a command until it is answered. An error may be that of a command that was damaged on its way: it is accepted once it is repeated.
+local function ask(self, command, seconds)
+  local last
+  return check_reply(command, device.ask(self, command, function()
+    local reply, why = exchange(self, command, seconds)
+    local code = error_of(reply)
+    if code and code ~= last then reply, why = nil, "damaged" end
+    last = code
+    return reply, why
+  end))
+end
 
 -- sends a command that must not be repeated, as a repetition would have a further effect
 local function ask_once(self, command, seconds)
@@ -157,7 +168,7 @@ end
 
 local function try_stop(self, seconds)
   local reply, why = exchange(self, "T", seconds)
-  return reply ~= nil and not reply:find "ERR", why
+  return reply ~= nil and not error_of(reply), why
 end
 
 --- Switches the motors off and closes the port. A stop that the hand does not confirm is repeated for at most three seconds.
@@ -174,7 +185,7 @@ Barrett.__gc = function(self) device.send_last(self, "T\r") end
 ---@option baud? integer [bit/s, 1 to 10000000] = 9600
 ---@option timeout? number [s, > 0, <= 3600] = 0.5  for replies to queries and settings
 ---@option move_timeout? number [s, > 0, <= 3600] = 20  for the ends of motions
----@option attempts? integer [1 to 1000] = 10  maximum number of attempts to get a correct reply
+---@option attempts? integer [1 to 1000] = 100  maximum number of attempts to get a correct reply; ten if the hand sends nothing
 ---@return barrett hand # `initialize`, `move`, `read`, `open`, `close_fingers`, `home`, `increment`, `torque`, `stop`, `breakaways`, `close`
 ---@effect edits
 --- > simulated = clench.devices.simulated.barrett {}

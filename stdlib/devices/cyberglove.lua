@@ -18,9 +18,9 @@ local function exchange(self, command, parse)
   local ok, why = self.port:write(command, self.timeout)
   if not ok then return nil, why end
   local answer
-  answer, why = self.port:read_until("\0", self.timeout)
+  answer, why = device.read_until(self.port, "\0", self.timeout)
   if not answer then return nil, why end
-  return parse(answer)
+  return parse(answer), "damaged"
 end
 
 local function ask(self, command, parse) return device.ask(self, command, exchange, command, parse) end
@@ -82,7 +82,7 @@ Glove.__close = function(self) self:close() end
 ---@option port string|port  path of its serial line, or a port
 ---@option baud? integer [bit/s, 1 to 10000000] = 38400
 ---@option timeout? number [s, > 0, <= 3600] = 0.5  for an answer
----@option attempts? integer [1 to 1000] = 10  maximum number of attempts to get a correct answer
+---@option attempts? integer [1 to 1000] = 100  maximum number of attempts to get a correct answer; ten if the glove sends nothing
 ---@option readings? integer [1 to 99] = 1  records of which each value is the median
 ---@return cyberglove glove # `read`, `read_dofs`, `is_ready`, `close`
 ---@effect edits

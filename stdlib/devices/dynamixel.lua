@@ -80,7 +80,7 @@ local function exchange_one(self, id, bytes)
   local answers, why = exchange(self, bytes, {id})
   local answer = answers and answers[id]
   if answer and answer.error & 0x7F ~= wrong_checksum then return answer end
-  return nil, why
+  return nil, why ~= "timeout" and why or "damaged"  -- a damaged request has no answer either
 end
 
 -- sends one instruction to one motor, until it is answered
@@ -279,6 +279,9 @@ local function connect(self)
   if self.is_fast == nil then self.is_fast = answers_fast(self) end
   local low, high = read_all(self, "min_position"), read_all(self, "max_position")
   for i, id in ipairs(self.ids) do
+    if low[id] < 0 or high[id] >= ticks_per_turn or low[id] > high[id] then
+      raise(("%s: motor %d: expected limits from 0 to %d, got %d to %d"):format(subject, id, ticks_per_turn - 1, low[id], high[id]), "stale")
+    end
     self.names[i], self.low[i], self.high[i] = "motor " .. id, radians_of(low[id]), radians_of(high[id])
   end
   self:reset_watchdog()

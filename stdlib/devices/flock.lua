@@ -41,15 +41,15 @@ local function request(self, bird)
   self.port:discard()
   local ok, why = self.port:write(address(bird) .. "B", self.timeout)
   if not ok then return nil, why end
-  local last, received = loop.time() + self.timeout, ""
+  local last, received, words, more = loop.time() + self.timeout, "", nil, nil
   repeat
-    local more, words
+    local is_silent = not more
     more, why = self.port:read_some(math.max(0, last - loop.time()))
-    if not more then return nil, why end
+    if not more then return nil, why == "timeout" and not is_silent and "damaged" or why end
     words, received = find_record(received .. more, 2 * self.mode.words)
     if words then return words end
   until loop.time() > last + self.timeout  -- of a device that never pauses
-  return nil, "timeout"
+  return nil, "damaged"
 end
 
 local function position_of(words) return {words[1] * range / 32768, words[2] * range / 32768, words[3] * range / 32768} end
@@ -122,7 +122,7 @@ end
 ---@option mode? "matrix"|"angles" = "matrix"  records of rotation matrices or of angles
 ---@option baud? integer [bit/s, 1 to 10000000] = 115200
 ---@option timeout? number [s, > 0, <= 3600] = 0.2  for a record
----@option attempts? integer [1 to 1000] = 20  maximum number of attempts to get a correct record
+---@option attempts? integer [1 to 1000] = 20  maximum number of attempts to get a correct record; ten if the flock sends nothing
 ---@option readings? integer [1 to 99] = 1  records of which each word is the median: no checksum protects them
 ---@return flock flock # `read`, `close`
 ---@effect edits

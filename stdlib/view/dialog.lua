@@ -73,7 +73,7 @@ local function draw_field(view, ui, state, parameter)
     local value, changed = ui:checkbox("##" .. name, state[name] == true)
     if changed then state[name] = value end
   else
-    local text, changed, entered = ui:text_input("##" .. name, state.texts[name] or shown(state[name]), {hint = parameter.optional and "default" or "", on_enter = true, focus = state.focus == name})
+    local text, changed, entered = ui:text_input("##" .. name, state.texts[name] or shown(state[name]), {hint = state.hints[name] or parameter.optional and "default" or "", on_enter = true, focus = state.focus == name})
     if state.focus == name then state.focus = nil end
     state.entered = state.entered or entered
     if changed then state.texts[name], state[name] = text, read(parameter, text) end
@@ -114,8 +114,11 @@ function dialog.fill(view, command)
     if not parameter.optional and parameter.default == nil then asks = true end
   end
   if not asks then return view:run(command.name) end
-  local state = {texts = {}}
-  for _, parameter in ipairs(command.parameters or {}) do state[parameter.name] = parameter.default end
+  local state = {texts = {}, hints = {}}
+  for _, parameter in ipairs(command.parameters or {}) do
+    state[parameter.name] = parameter.default
+    if parameter.hint then state.hints[parameter.name] = parameter.hint() end
+  end
   if is_planner(command) then state.hand, state.object = view.session.hand.name, view.session.object.name end
   -- in a window the user watches and stops a search: it is limited by time, not by steps
   if is_planner(command) and state.steps then state.steps, state.seconds = 10000000, 60 end
@@ -147,7 +150,9 @@ end
 
 local function draw(view, ui, command, state)
   if is_planner(command) then return draw_planner(view, ui, command, state) end
-  draw_fields(view, ui, command, state, math.min(#(command.parameters or {}) * (ui.line_height + 6) + 8, 420))
+  -- an error takes its lines from the fields: the window keeps its size, and its buttons remain visible
+  local lines = state.error and 3 or 0
+  draw_fields(view, ui, command, state, math.max(math.min(#(command.parameters or {}) * (ui.line_height + 6) + 8, 420) - lines * ui.line_height, 2 * ui.line_height))
   if state.error then ui:text(state.error, {color = {0.84, 0.37, 0}, wrap = true}) end
   if ui:button("OK", {width = 90}) or state.entered then
     state.entered = nil

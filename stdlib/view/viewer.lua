@@ -255,10 +255,22 @@ function Viewer:flush()
   end
 end
 
+-- the camera of the session's trackers is that of its last view
+local function lend_camera(self)
+  local function current() return self.camera or raise "view: there is no camera while no world is open" end
+  local function set(pose)
+    self.camera = camera.at(current(), pose)
+    self.needs_frame = true
+  end
+  self.lent_camera = {get = function() return camera.pose(current()) end, set = set}
+  self.session.sensors.camera = self.lent_camera
+end
+
 --- Closes the view.
 function Viewer:close()
   if self.is_closed then return end
   self.is_closed = true
+  if self.session.sensors.camera == self.lent_camera then self.session.sensors.camera = nil end
   for _, unsubscribe in ipairs(self.subscriptions) do unsubscribe() end
   if self.timer then self.timer:remove() end
   for _, kept in ipairs(self.kept) do kept.finish() end
@@ -281,6 +293,7 @@ return function(options)
   view.ui = clench.ui {size = size, window = options.window, title = options.title, dark = options.dark, scale = options.scale}
   view.panels = layout.panels()
   view:home()
+  lend_camera(view)
   for _, event in ipairs {"changed", "progress", "result"} do
     view.subscriptions[#view.subscriptions + 1] = session:subscribe(event, function() view:changed() end)
   end
