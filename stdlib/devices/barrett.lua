@@ -168,7 +168,7 @@ end
 
 local function try_stop(self, seconds)
   local reply, why = exchange(self, "T", seconds)
-  return reply ~= nil and not reply:find "ERR", why
+  return reply ~= nil and not error_of(reply), why
 end
 
 --- Switches the motors off and closes the port. A stop that the hand does not confirm is repeated for at most three seconds.

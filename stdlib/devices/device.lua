@@ -49,7 +49,7 @@ end
 --- Repeats an exchange until it succeeds, at most `driver.attempts` times; raises an error if it never does. Damaged answers may be numerous on a noisy line, but
 --- a device that answers also damaged commands is absent if it sends nothing `driver.max_silent` times in a row.
 ---@param doing string  for the message
----@param exchange fun(driver: table, ...): any?, string?  the answer; or nil and the reason, as returned by port:read: "timeout" if nothing was received
+---@param exchange fun(driver: table, ...): any?, string?  the answer; or nil and the reason, as returned by port:read: "timeout" if nothing was received, or "damaged"
 function device.ask(driver, doing, exchange, ...)
   local silent = 0
   for _ = 1, driver.attempts do
@@ -124,6 +124,17 @@ local function stop_confirmed(driver, stop)
   return false
 end
 
+-- stops a device, also while another coroutine waits for an answer; false and the reason: it could not wait for the device
+local function stop_and_wait(driver, stop, last)
+  local until_then = clench.clock() + max_closing_time
+  while true do
+    local ok, stopped = pcall(stop_confirmed, driver, stop)
+    if ok then return stopped end
+    send_now(driver.port, last)  -- its answer ends the other wait
+    if is_stopped(stopped) or clench.clock() > until_then or not pcall(clench.loop.sleep, 0.05) then return false, stopped end
+  end
+end
+
 --- Stops a device and closes its port. A stop that the device does not confirm is repeated for at most three seconds; a warning is reported if it never does.
 ---@param stop fun(driver: table, seconds: number): boolean?, string?  one attempt: true if the device has confirmed it, otherwise the reason, as returned by port:read
 ---@param last string  bytes that stop the device
@@ -131,11 +142,9 @@ end
 function device.stop_and_close(driver, stop, last)
   if driver.is_closed then return true end
   driver.is_closed = true
-  local ok, stopped = pcall(stop_confirmed, driver, stop)
-  if not ok then send_now(driver.port, last) end  -- a stop or an error of the script has ended the wait
+  local stopped, why = stop_and_wait(driver, stop, last)
   device.close(driver)
-  if is_stopped(stopped) then error(stopped, 0) end
-  stopped = ok and stopped
+  if is_stopped(why) then error(why, 0) end
   if not stopped then clench.log.warning(("%s: the device at %s has not confirmed that it has stopped"):format(driver.subject, driver.port.name)) end
   return stopped
 end

@@ -80,7 +80,7 @@ local function exchange_one(self, id, bytes)
   local answers, why = exchange(self, bytes, {id})
   local answer = answers and answers[id]
   if answer and answer.error & 0x7F ~= wrong_checksum then return answer end
-  return nil, why
+  return nil, why ~= "timeout" and why or "damaged"  -- a damaged request has no answer either
 end
 
 -- sends one instruction to one motor, until it is answered

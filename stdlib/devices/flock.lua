@@ -41,12 +41,11 @@ local function request(self, bird)
   self.port:discard()
   local ok, why = self.port:write(address(bird) .. "B", self.timeout)
   if not ok then return nil, why end
-  local last, received, is_silent = loop.time() + self.timeout, "", true
+  local last, received, words, more = loop.time() + self.timeout, "", nil, nil
   repeat
-    local more, words
+    local is_silent = not more
     more, why = self.port:read_some(math.max(0, last - loop.time()))
     if not more then return nil, why == "timeout" and not is_silent and "damaged" or why end
-    is_silent = false
     words, received = find_record(received .. more, 2 * self.mode.words)
     if words then return words end
   until loop.time() > last + self.timeout  -- of a device that never pauses

@@ -26,34 +26,30 @@ local function read(port, size, seconds)
   return bytes, why
 end
 
--- the answer to a request, without checksum; nil and the reason if there is none. size: length of a correct answer; seconds: maximum waiting time
-local function exchange(master, request, size, seconds)
+-- The answer to a request, without checksum; nil and the reason if there is none, or if it belongs to another request.
+-- start: first bytes of a correct answer, after the number of the slave; size: its length; seconds: maximum waiting time
+local function exchange(master, bytes, start, size, seconds)
   local port = master.port
   port:discard()
-  local ok, why = port:write(request, seconds)
+  local ok, why = port:write(modbus.frame(bytes), seconds)
   if not ok then return nil, why end
-  local head
-  head, why = read(port, 5, seconds)  -- length of an answer that reports an error
-  if not head then return nil, why end
-  if head:byte(2) & 0x80 == 0 then
+  local frame
+  frame, why = read(port, 5, seconds)  -- length of an answer that reports an error
+  if not frame then return nil, why end
+  if frame:byte(2) & 0x80 == 0 then
     local rest
     rest, why = read(port, size - 5, seconds)
     if not rest then return nil, why == "timeout" and "damaged" or why end
-    head = head .. rest
+    frame = frame .. rest
   end
-  if modbus.crc(head:sub(1, -3)) ~= string.unpack("<I2", head, #head - 1) or head:sub(1, 1) ~= request:sub(1, 1) then return nil, "damaged" end
-  return head:sub(1, -3)
+  local answer = frame:sub(1, -3)
+  local is_right = answer:byte(1) == master.slave and (answer:sub(2, 1 + #start) == start or answer:byte(2) == bytes:byte(2) | 0x80)
+  if not is_right or modbus.crc(answer) ~= string.unpack("<I2", frame, #frame - 1) then return nil, "damaged" end
+  return answer
 end
 
--- Repeats a request until it is answered. start: first bytes of a correct answer, after the number of the slave; size: its length
 local function ask(master, bytes, start, size, doing)
-  local request = modbus.frame(bytes)
-  local answer = device.ask(master, doing, function()
-    local answer, why = exchange(master, request, size, master.timeout)
-    local is_right = answer and (answer:sub(2, 1 + #start) == start or answer:byte(2) == bytes:byte(2) | 0x80)
-    if is_right then return answer end
-    return nil, why or "damaged"
-  end)
+  local answer = device.ask(master, doing, exchange, bytes, start, size, master.timeout)
   if answer:byte(2) == bytes:byte(2) then return answer end
   raise(("%s: the device rejects the request: %s (exception %d)"):format(master.subject, doing, answer:byte(3)), "stale")
 end
@@ -63,19 +59,21 @@ end
 ---@return string bytes  two per register
 function modbus.read(master, address, count)
   local request = string.pack(">B B I2 I2", master.slave, read_code, address, count)
-  local answer = ask(master, request, string.char(read_code, 2 * count), 5 + 2 * count, "reading registers")
-  return answer:sub(4)
+  return ask(master, request, string.char(read_code, 2 * count), 5 + 2 * count, "reading registers"):sub(4)
 end
 
 local function write_request(master, address, bytes)
   return string.pack(">B B I2 I2 B", master.slave, write_code, address, #bytes // 2, #bytes) .. bytes
 end
 
+-- the answer to this request begins like it: function, address and number of registers
+local function write_start(request) return request:sub(2, 6) end
+
 --- Writes registers.
 ---@param bytes string  two per register
 function modbus.write(master, address, bytes)
   local request = write_request(master, address, bytes)
-  ask(master, request, request:sub(2, 6), write_answer_size, "writing registers")
+  ask(master, request, write_start(request), write_answer_size, "writing registers")
 end
 
 --- The frame that writes registers.
@@ -86,7 +84,8 @@ function modbus.write_frame(master, address, bytes) return modbus.frame(write_re
 ---@return boolean is_confirmed
 ---@return string? reason  as returned by port:read
 function modbus.try_write(master, address, bytes, seconds)
-  local answer, why = exchange(master, modbus.write_frame(master, address, bytes), write_answer_size, seconds)
+  local request = write_request(master, address, bytes)
+  local answer, why = exchange(master, request, write_start(request), write_answer_size, seconds)
   return answer ~= nil and answer:byte(2) == write_code, why
 end
 

@@ -93,7 +93,7 @@ function Viewer:open_palette() self.palette = {text = "", index = 1} end
 --- Writes the session as a script.
 function Viewer:save_script(path) clench.files.save_text(path, self.session:script() .. "\n") end
 
--- drops all data of the previous world when another one is opened
+-- of another world nothing is kept
 local function follow_world(self)
   local world = self.session.world
   if not world or self.shown_world == world then return end

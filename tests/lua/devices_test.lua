@@ -228,6 +228,18 @@ test("Barrett: a stop that the hand does not confirm is repeated, for a bounded 
   t.ok(clench.clock() - began < 20)
 end)
 
+test("Barrett: closing stops the hand also while another coroutine waits for its reply", function(t)
+  local device <close> = simulated.barrett {}
+  local hand = devices.barrett {port = device.path}
+  hand:initialize()
+  device.move_time = 0.2
+  loop.spawn(function() pcall(hand.home, hand) end)
+  loop.run(0.05)
+  t.equal(device.stops, 0)
+  t.equal(hand:close(), true)
+  t.ok(device.stops > 0)
+end)
+
 test("Dynamixel: packets are those of the protocol's description", function(t)
   local device <close> = simulated.dynamixel {ids = {1, 2}}
   local bus <close> = devices.dynamixel {port = device.path, ids = {1, 2}}
