@@ -20,6 +20,7 @@ function Barrett:__tostring() return "Barrett hand at " .. self.port.name end
 
 -- one exchange: the reply between echo and prompt; nil and the reason if there is none
 local function exchange(self, command, seconds)
+  if self.is_closed and command ~= "T" then return nil, "closed" end  -- another coroutine has stopped the hand
   self.port:discard()
   local ok, why = self.port:write(command .. "\r", seconds)
   if not ok then return nil, why end
@@ -172,18 +173,27 @@ local function stop_surely(self)
   return false
 end
 
+-- stops the hand, also while another coroutine waits for a reply; nil and the reason: it could not wait for the hand
+local function stop_and_wait(self)
+  local last = clench.clock() + max_closing_time
+  while true do
+    local ok, stopped = pcall(stop_surely, self)
+    if ok then return stopped end
+    device.send_last(self.port, "T\r")  -- its reply ends the other wait
+    if is_stopped(stopped) or clench.clock() > last or not pcall(clench.loop.sleep, 0.05) then return nil, stopped end
+  end
+end
+
 --- Switches the motors off and closes the port. A stop that the hand does not confirm is repeated for at most three seconds.
 ---@return boolean stopped  false: the hand has not confirmed it
 function Barrett:close()
   if self.is_closed then return true end
   self.is_closed = true
-  local ok, stopped = pcall(stop_surely, self)
-  if not ok then device.send_last(self.port, "T\r") end  -- nothing can be waited for
+  local stopped, why = stop_and_wait(self)
   if self.owns_port then self.port:close() end
-  if is_stopped(stopped) then error(stopped, 0) end
-  stopped = ok and stopped
+  if is_stopped(why) then error(why, 0) end
   if not stopped then clench.log.warning(("%s: the hand at %s has not confirmed that its motors are off"):format(subject, self.port.name)) end
-  return stopped
+  return stopped or false
 end
 
 Barrett.__close = function(self) self:close() end
