@@ -21,6 +21,8 @@ function Barrett:__tostring() return "Barrett hand at " .. self.port.name end
 -- one exchange: the reply between echo and prompt; nil and the reason if there is none
 local function exchange(self, command, seconds)
   if self.is_closed and command ~= "T" then return nil, "closed" end  -- another coroutine has stopped the hand
+  self.is_waiting = true
+  local _ <close> = setmetatable({}, {__close = function() self.is_waiting = false end})
   self.port:discard()
   local ok, why = self.port:write(command .. "\r", seconds)
   if not ok then return nil, why end
@@ -42,8 +44,9 @@ end
 
 -- Sends a command until it is answered. An error may be that of a command that was damaged on its way: it is accepted once it is repeated.
 local function ask(self, command, seconds)
-  local last
+  local last, stops = nil, self.stops
   return check_reply(device.repeated(subject, self, function()
+    if self.stops ~= stops then raise(("%s: the hand was stopped during %s"):format(subject, command), "stale") end
     local reply, why = exchange(self, command, seconds)
     local code = error_of(reply)
     if code and code ~= last then reply, why = nil, "damaged" end
@@ -121,8 +124,22 @@ function Barrett:torque(direction, motors)
   ask(self, prefix_of("torque", motors) .. (direction == "close" and "TC" or "TO"), self.move_timeout)
 end
 
---- Switches the motors off.
-function Barrett:stop(motors) ask(self, prefix_of("stop", motors) .. "T", self.timeout) end
+-- ends another coroutine's wait for a reply: the hand replies to a stop at once, and the other command is not repeated
+local function interrupt(self, command)
+  self.stops = self.stops + 1
+  local last = clench.clock() + max_closing_time
+  while self.is_waiting and clench.clock() < last do
+    device.send_last(self.port, command .. "\r")
+    clench.loop.sleep(0.05)
+  end
+end
+
+--- Switches the motors off, also while another coroutine waits for the end of a motion, which then fails.
+function Barrett:stop(motors)
+  local command = prefix_of("stop", motors) .. "T"
+  interrupt(self, command)
+  ask(self, command, self.timeout)
+end
 
 --- Moves all motors together. Positions are checked, sent and read back before the motion is started.
 ---@param angles number[]  spread and fingers [rad]
@@ -173,27 +190,21 @@ local function stop_surely(self)
   return false
 end
 
--- stops the hand, also while another coroutine waits for a reply; nil and the reason: it could not wait for the hand
-local function stop_and_wait(self)
-  local last = clench.clock() + max_closing_time
-  while true do
-    local ok, stopped = pcall(stop_surely, self)
-    if ok then return stopped end
-    device.send_last(self.port, "T\r")  -- its reply ends the other wait
-    if is_stopped(stopped) or clench.clock() > last or not pcall(clench.loop.sleep, 0.05) then return nil, stopped end
-  end
-end
-
 --- Switches the motors off and closes the port. A stop that the hand does not confirm is repeated for at most three seconds.
 ---@return boolean stopped  false: the hand has not confirmed it
 function Barrett:close()
   if self.is_closed then return true end
   self.is_closed = true
-  local stopped, why = stop_and_wait(self)
+  local ok, stopped = pcall(function()
+    interrupt(self, "T")
+    return stop_surely(self)
+  end)
+  if not ok then device.send_last(self.port, "T\r") end  -- nothing can be waited for
   if self.owns_port then self.port:close() end
-  if is_stopped(why) then error(why, 0) end
+  if is_stopped(stopped) then error(stopped, 0) end
+  stopped = ok and stopped
   if not stopped then clench.log.warning(("%s: the hand at %s has not confirmed that its motors are off"):format(subject, self.port.name)) end
-  return stopped or false
+  return stopped
 end
 
 Barrett.__close = function(self) self:close() end
@@ -219,7 +230,7 @@ Barrett.__gc = function(self) if not self.is_closed then device.send_last(self.p
 return function(options)
   local o = new_options(subject, options)
   local given, baud = o:raw "port", o:get "baud"
-  local hand = {timeout = o:get "timeout", move_timeout = o:get "move_timeout", attempts = o:get "attempts"}
+  local hand = {timeout = o:get "timeout", move_timeout = o:get "move_timeout", attempts = o:get "attempts", stops = 0}
   o:done()
   hand.port, hand.owns_port = device.port_of(subject, given, baud), type(given) == "string"
   return setmetatable(hand, Barrett)

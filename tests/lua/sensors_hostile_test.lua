@@ -102,10 +102,18 @@ test("a hand is stopped while another coroutine waits for its motion, and the co
   session.hand.dofs = {0, 0, 0, 0}
   session:run("sensors.push", {max_speed = 1})
   with.run_until(t, function() return received[#received]:find "M$" end, "no motion")
+  local count = #received
+  session:run "sensors.stop"
+  with.run_until(t, function() return session.sensors.hand.task == nil end, "no stop")
+  t.equal({session.sensors.hand.state, session.sensors.hand.problem}, {"connected"})
+  t.equal(received[count + 1], "T")
+  for i = count + 1, #received do t.ok(not received[i]:find "M$", received[i]) end
+  session:run("sensors.push", {max_speed = 1})
+  with.run_until(t, function() return received[#received]:find "M$" end, "no motion")
   local began = loop.time()
   session:run("sensors.disconnect", {device = "hand"})
   t.ok(loop.time() - began < max_pause)
-  local count = #received
+  count = #received
   with.run_until(t, function() return not line:is_open() or received[#received] == "T" end, "no stop")
   loop.run(0.3)
   for i = count + 1, #received do t.equal(received[i], "T") end
