@@ -109,11 +109,11 @@ function device.send_last(driver, bytes)
   if not driver.is_closed then send_now(driver.port, bytes) end
 end
 
-local max_closing_time = 3  -- [s]
+device.max_closing_time = 3  -- of a stop that is not confirmed [s]
 
 -- stops a device, repeatedly until it confirms it; false: it has not done so in time
 local function stop_confirmed(driver, stop)
-  local last = clench.clock() + math.min(driver.attempts * driver.timeout, max_closing_time)
+  local last = clench.clock() + math.min(driver.attempts * driver.timeout, device.max_closing_time)
   for _ = 1, driver.attempts do
     local left = last - clench.clock()
     if left <= 0 then return false end
@@ -126,7 +126,7 @@ end
 
 -- stops a device, also while another coroutine waits for an answer; false and the reason: it could not wait for the device
 local function stop_and_wait(driver, stop, last)
-  local until_then = clench.clock() + max_closing_time
+  local until_then = clench.clock() + device.max_closing_time
   while true do
     local ok, stopped = pcall(stop_confirmed, driver, stop)
     if ok then return stopped end
