@@ -1,7 +1,7 @@
 --- The part of planner dialogs below their fields: start, pause and stop of the search, and stepping through its grasps.
 local results = {}
 
-local gray = {0.5, 0.5, 0.5}
+local gray, orange = {0.5, 0.5, 0.5}, {0.84, 0.37, 0}
 
 local function number_of(session, job)
   for i, other in ipairs(session.jobs) do
@@ -60,9 +60,12 @@ end
 local function draw_report(ui, state)
   if state.reported ~= state.job then
     local ok, result = pcall(state.job.result, state.job)
-    state.reported, state.report = state.job, ok and type(result) == "table" and result.report and tostring(result.report) or ""
+    local report = ok and type(result) == "table" and result.report or nil
+    state.reported, state.causes, state.report = state.job, report and report.causes or {}, report and tostring(report) or ""
   end
-  if state.report ~= "" then ui:text(state.report, {wrap = true}) end
+  if #state.causes > 0 then ui:text("Nothing was found, because", {color = orange}) end
+  for _, cause in ipairs(state.causes) do ui:text("- " .. cause, {wrap = true, color = orange}) end
+  if state.report ~= "" then ui:text((state.report:gsub("\nwhy: [^\n]*", "")), {wrap = true, color = gray}) end
 end
 
 --- Draws the controls of a planner.
