@@ -32,6 +32,7 @@ local function clamp(x, low, high) return math.max(low, math.min(high, x)) end
 
 -- moveDOFs robot n v1 ... vn s1 ... sn
 function commands.moveDOFs(world, words)
+  if words:has_negative() then words.fail "Robot does not exist." end
   local robot = world.robots[words:index "the index of a robot" + 1] or words.fail "Robot does not exist."
   local count = words:index "the number of DOFs"
   if count ~= #robot.dofs then words.fail("robot has %d DOF.", #robot.dofs) end
