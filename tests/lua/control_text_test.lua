@@ -166,6 +166,10 @@ test("every wrong line is answered by one error line", function(t)
   for line, reply in pairs {
     ["getDOFVals 1 7"] = "Error: Cannot find robot 7",
     ["getBodyName 2 0 10"] = "Error: Cannot find body 10",
+    ["getRobotName 1 -1"] = "Error: Cannot find robot -1",
+    ["getContacts 1 2 0 -" .. ("1"):rep(50)] = "Error: Cannot find body -" .. ("1"):rep(39),
+    ["moveDOFs -1 4 0"] = "Error: Robot does not exist.",
+    ["getBodyName 1 1.0"] = "Error: getBodyName: expected an index, got 1.0",
     ["moveDOFs 1 4 0"] = "Error: Robot does not exist.",
     ["moveDOFs 0 5 0"] = "Error: robot has 4 DOF.",
     ["setDOFForces 1 0 3 1 1 1"] = "Error: robot has 4 DOF.",

@@ -116,8 +116,12 @@ class Writer {
     }
     if (depth >= json_depth) refuse(fmt::format("at most {} levels of tables", json_depth));
     if (luaL_getmetafield(L_, index, "__json") != LUA_TNIL) {
+      const bool ours = lua_iscfunction(L_, -1);
       lua_pushvalue(L_, index);
-      call_script(L_, 1, 1, fmt::format("clench.json.encode: value{}: __json", path()));
+      if (ours)
+        protected_call(L_, 1, 1);
+      else
+        call_script(L_, 1, 1, fmt::format("clench.json.encode: value{}: __json", path()));
       if (++conversions_ > json_depth) refuse("a finite chain of __json values");
       value(-1, depth);
       --conversions_;
@@ -200,7 +204,7 @@ class Writer {
   // from a table to a value in it
   struct Step {
     lua_Integer item = 0;   // of a list; 0: the value has a name
-    std::string_view name;  // valid while the object is written
+    std::string_view name = {};  // valid while the object is written
   };
 
   lua_State* L_;

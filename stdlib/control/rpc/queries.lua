@@ -101,12 +101,12 @@ local function velocity_of(body)
   return {linear = velocity.linear, angular = velocity.angular}
 end
 
---- The state of a world: its time, and the state of everything that can move.
+--- The state of a world: its time, and the state of everything that can move. With addresses instead of bodies and robots.
 function queries.state(world)
   local bodies, robots = {}, {}
-  for i, body in ipairs(world.objects) do bodies[i] = {body = body, pose = body.pose, velocity = velocity_of(body)} end
+  for i, body in ipairs(world.objects) do bodies[i] = {body = values.address(body), pose = body.pose, velocity = velocity_of(body)} end
   for i, one in ipairs(world.robots) do
-    robots[i] = {robot = one, pose = one.pose, dofs = one.dofs, dof_velocities = one.dof_velocities, dof_efforts = one.dof_efforts}
+    robots[i] = {robot = values.address(one), pose = one.pose, dofs = one.dofs, dof_velocities = one.dof_velocities, dof_efforts = one.dof_efforts}
   end
   return {time = world.time, objects = bodies, robots = robots}
 end

@@ -85,11 +85,16 @@ end
 local function snapshot_of(world, parts)
   local value = queries.state(world)
   if parts.poses then value.poses = queries.poses(world) end
-  if parts.contacts then value.contacts = queries.contacts(world) end
+  if parts.contacts then value.contacts = values.of(queries.contacts(world)) end
   return value
 end
 
-local function snapshot_text(world, parts) return world and values.text(values.of(snapshot_of(world, parts))) or "null" end
+local function snapshot_text(world, parts)
+  if not world then return "null" end
+  local snapshot = snapshot_of(world, parts)
+  local ok, text = pcall(values.text, snapshot)
+  return ok and text or values.text(values.of(snapshot))  -- with numbers that JSON cannot express
+end
 
 local reused_for = 4  -- times as long as it took to make it
 

@@ -15,6 +15,7 @@ function lists.read(words, kind, all)
   if count > #words - words.at then words.fail("%s: expected %d indices, got %d", words.command, count, #words - words.at) end
   local chosen = {}
   for i = 1, count do
+    if words:has_negative() then words.fail("Cannot find %s %.40s", kind, words:peek()) end
     local index = words:index()
     chosen[i] = all[index + 1] or words.fail("Cannot find %s %d", kind, index)
     if i > #all then words.fail("%s: expected at most %d indices, got %d", words.command, #all, count) end
