@@ -18,7 +18,7 @@ main { grid-template-columns: minmax(420px, 1fr) 380px; }
 #touches td, #touches th { padding: 2px 6px; font-size: 12.5px; position: static; } #touches td:first-child, #touches th:first-child { text-align: left; }
 #plots figure { margin: 6px 0; } #plots canvas { width: 100%; height: 84px; display: block; border: 1px solid var(--line); border-radius: 5px; }
 #plots figcaption { display: flex; justify-content: space-between; font-size: 12.5px; color: var(--soft); }
-#plots button, #side button { font: inherit; font-size: 12.5px; border: 1px solid var(--line); border-radius: 5px; background: #fff; cursor: pointer; }
+#plots button, #side button { font: inherit; font-size: 12.5px; border: 1px solid var(--line); border-radius: 5px; background: #fff; cursor: pointer; margin-right: 6px; }
 #plots select { font: inherit; font-size: 13px; max-width: 260px; }
 #problem { color: #b3261e; min-height: 1.4em; font-size: 13.5px; }
 ]==]
