@@ -70,7 +70,7 @@ end
 --- Registers a command.
 ---@param command {name: string, run: function, label?: string, shortcut?: string, menu?: string, enabled?: function, parameters?: table[], reads?: boolean, script?: function, replace?: boolean, long?: boolean}
 --- name: "group.verb"; run(session, args); enabled(session): can it run now? If not, it may return a reason as its second value; parameters: a list of {name =,
---- type =, unit =, min =, max =, default =, optional =, text =}; reads: it changes nothing, and is neither logged nor undone; script(session, args): lines of
+--- type =, unit =, min =, max =, default =, optional =, choices =, text =, hint =}, where hint() returns the text of its empty field; reads: it changes nothing, and is neither logged nor undone; script(session, args): lines of
 --- Lua with the same effect, logged instead of the resulting state; replace: it may replace a command of the same name; long: it may take seconds, so a server
 --- runs it as a job (requires script or reads)
 function Session:command(command)

@@ -16,11 +16,15 @@ local max_counts = {max_spread, max_finger, max_finger, max_finger}
 local max_angles = {spread_angle, finger_angle, finger_angle, finger_angle}
 local all = "123S"                 -- the order in which the hand reports values
 local order_of_all = {4, 1, 2, 3}  -- position of each DOF in that order
+local max_interruption = 3         -- [s]
 
 function Barrett:__tostring() return "Barrett hand at " .. self.port.name end
 
 -- one exchange: the reply between echo and prompt; nil and the reason if there is none
 local function exchange(self, command, seconds)
+  if self.is_closed and command ~= "T" then return nil, "closed" end  -- another coroutine has stopped the hand
+  self.is_waiting = true
+  local _ <close> = setmetatable({}, {__close = function() self.is_waiting = false end})
   self.port:discard()
   local ok, why = self.port:write(command .. "\r", seconds)
   if not ok then return nil, why end
@@ -42,8 +46,9 @@ end
 
 -- Sends a command until it is answered. An error may be that of a command that was damaged on its way: it is accepted once it is repeated.
 local function ask(self, command, seconds)
-  local last
+  local last, stops = nil, self.stops
   return check_reply(command, device.ask(self, command, function()
+    if self.stops ~= stops then raise(("%s: the hand was stopped during %s"):format(subject, command), "stale") end
     local reply, why = exchange(self, command, seconds)
     local code = error_of(reply)
     if code and code ~= last then reply, why = nil, "damaged" end
@@ -130,8 +135,22 @@ function Barrett:torque(direction, motors)
   ask(self, prefix_of("torque", motors) .. (direction == "close" and "TC" or "TO"), self.move_timeout)
 end
 
---- Switches the motors off.
-function Barrett:stop(motors) ask(self, prefix_of("stop", motors) .. "T", self.timeout) end
+-- ends another coroutine's wait for a reply: the hand replies to a stop at once, and the other command is not repeated
+local function interrupt(self, command)
+  self.stops = self.stops + 1
+  local last = clench.clock() + max_interruption
+  while self.is_waiting and clench.clock() < last do
+    device.send_now(self.port, command .. "\r")
+    clench.loop.sleep(0.05)
+  end
+end
+
+--- Switches the motors off, also while another coroutine waits for the end of a motion, which then fails.
+function Barrett:stop(motors)
+  local command = prefix_of("stop", motors) .. "T"
+  interrupt(self, command)
+  ask(self, command, self.timeout)
+end
 
 --- Moves all motors together. Positions are checked, sent and read back before the motion is started.
 ---@param angles number[]  spread and fingers [rad]
@@ -167,6 +186,7 @@ function Barrett:breakaways()
 end
 
 local function try_stop(self, seconds)
+  interrupt(self, "T")
   local reply, why = exchange(self, "T", seconds)
   return reply ~= nil and not error_of(reply), why
 end
@@ -197,5 +217,5 @@ Barrett.__gc = function(self) device.send_last(self, "T\r") end
 --- > barrett:move {9, 0, 0, 0}  --> error: spread: expected 0 to 3.14159 rad, got 9
 return function(options)
   local o = new_options(subject, options)
-  return setmetatable(device.new(subject, o, {move_timeout = o:get "move_timeout"}), Barrett)
+  return setmetatable(device.new(subject, o, {move_timeout = o:get "move_timeout", stops = 0}), Barrett)
 end

@@ -102,13 +102,14 @@ function device.median(readings)
   return out
 end
 
-local function send_now(port, bytes)
+--- Sends bytes without waiting.
+function device.send_now(port, bytes)
   if port.stream:descriptor() >= 0 then port.stream:write(bytes, 0) end
 end
 
 --- Sends the bytes that stop a device without waiting, unless the driver is closed; for use when a script ends.
 function device.send_last(driver, bytes)
-  if not driver.is_closed then send_now(driver.port, bytes) end
+  if not driver.is_closed then device.send_now(driver.port, bytes) end
 end
 
 local max_closing_time = 3  -- [s]
@@ -132,7 +133,7 @@ local function stop_and_wait(driver, stop, last)
   while true do
     local ok, stopped = pcall(stop_confirmed, driver, stop)
     if ok then return stopped end
-    send_now(driver.port, last)  -- its answer ends the other wait
+    device.send_now(driver.port, last)  -- its answer ends the other wait
     if is_stopped(stopped) or clench.clock() > until_then or not pcall(clench.loop.sleep, 0.05) then return false, stopped end
   end
 end

@@ -36,6 +36,9 @@ function arguments.check_command(command)
     for field in pairs(parameter) do
       if not known_fields[field] then raise(("session:command: %s: parameter %s: unknown key '%s'"):format(name, parameter.name, tostring(field))) end
     end
+    if parameter.hint ~= nil and type(parameter.hint) ~= "function" then
+      raise(("session:command: %s: parameter %s: hint: expected a function, got %s"):format(name, parameter.name, described(parameter.hint)))
+    end
     if not types[parameter.type] then
       raise(("session:command: %s: parameter %s: type: expected one of number, integer, string, boolean, table, pose, vec3, body, robot, any, got %s"):format(
         name, parameter.name, described(parameter.type)))

@@ -140,13 +140,19 @@ function sensed.push(session, max_speed, continuous)
   end
 end
 
---- Stops the real hand.
+--- Stops the real hand; a Barrett hand also while it replies to nothing else, because it moves.
 function sensed.stop(session)
   sensors.reading(session, "hand")
-  session.sensors.hand.task = function(device)
+  local sensor = session.sensors.hand
+  sensor.task = function(device)
     device:stop()
     return true
   end
+  if not sensor.device.is_waiting then return end
+  clench.loop.spawn(function()
+    local ok, problem = pcall(sensor.device.stop, sensor.device)
+    if not ok and is_stopped(problem) then error(problem, 0) end
+  end)
 end
 
 return sensed

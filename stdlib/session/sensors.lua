@@ -42,7 +42,8 @@ end
 local function advance(session, sensor)
   local task = sensor.task
   local ok, done = pcall(task, sensor.device)
-  if not ok then report(session, sensor, done) end
+  -- a task that was replaced, by a stop, may have failed because of that
+  if not ok and (sensor.task == task or is_stopped(done)) then report(session, sensor, done) end
   if (done or not ok) and sensor.task == task then sensor.task = nil end
 end
 

@@ -59,11 +59,11 @@ local function samples_of(hand, calibration, random, count, sigma)
   return samples
 end
 
--- the thumb's rows, wrong by some tenths of a radian
-local function disturbed(hand, calibration, random)
+-- rows of the thumb, or of other DOFs, wrong by some tenths of a radian
+local function disturbed(hand, calibration, random, dofs)
   local out = {slopes = {}, intercepts = {table.unpack(calibration.intercepts)}}
   for d, row in ipairs(calibration.slopes) do out.slopes[d] = {table.unpack(row)} end
-  for _, d in ipairs(dofs_of(hand, thumb)) do
+  for _, d in ipairs(dofs or dofs_of(hand, thumb)) do
     out.intercepts[d] = out.intercepts[d] + random:uniform(-0.1, 0.1)
     for s, slope in ipairs(out.slopes[d]) do out.slopes[d][s] = slope * random:uniform(0.9, 1.1) end
   end
@@ -88,6 +88,17 @@ test("without noise the true coefficients of the thumb are found to 1e-9", funct
   t.ok(before > 0.05)
   t.ok(found.tips.converged and found.tips.max < 1e-9, found.tips.max)
   t.equal({found.tips.samples, #found.tips.rejected}, {40, 0})
+end)
+
+test("joints of both fingers can be fitted together", function(t)
+  local hand, random = human(), clench.random(5)
+  local known = truth(hand, random)
+  local refine = dofs_of(hand, thumb)
+  table.move(dofs_of(hand, index), 2, 3, #refine + 1, refine)
+  local samples = samples_of(hand, known, random, 60, 0)
+  local found = calibrate_tips {hand = hand, calibration = disturbed(hand, known, random, refine), samples = samples, tips = tip_points, refine = refine}
+  t.close(found.intercepts, known.intercepts, 1e-9)
+  t.ok(found.tips.converged and found.tips.steps < 30, found.tips.steps)
 end)
 
 test("with noise the residuals agree with its level", function(t)

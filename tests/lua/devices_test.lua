@@ -240,6 +240,29 @@ test("Barrett: closing stops the hand also while another coroutine waits for its
   t.ok(device.stops > 0)
 end)
 
+test("Barrett: a stop by another coroutine ends a motion, which fails and is not repeated", function(t)
+  local line <close> = clench.port.pty()
+  local received = {}
+  loop.spawn(function()
+    while true do
+      local command = line:read_until "\r"
+      if not command then return end
+      received[#received + 1] = command
+      if command ~= "12C" then line:send(command .. "\r\n=> ") end  -- the motion never ends
+    end
+  end)
+  local hand = devices.barrett {port = line.path}
+  local ok, problem
+  loop.spawn(function() ok, problem = pcall(hand.close_fingers, hand, "12") end)
+  while #received == 0 do loop.run(0.01) end
+  hand:stop()
+  loop.run(0.1)
+  t.equal(ok, false)
+  t.ok(tostring(problem):find("devices.barrett: the hand was stopped during 12C", 1, true), tostring(problem))
+  for i = 2, #received do t.equal(received[i], "T") end
+  hand:close()
+end)
+
 test("Dynamixel: packets are those of the protocol's description", function(t)
   local device <close> = simulated.dynamixel {ids = {1, 2}}
   local bus <close> = devices.dynamixel {port = device.path, ids = {1, 2}}

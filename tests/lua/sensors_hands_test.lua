@@ -79,6 +79,9 @@ test("what does not fit a driver is refused in one sentence, before anything is 
   t.equal(serial_lines.advice "x: No such file or directory" ~= "", true)
   t.equal(serial_lines.advice "x: strange", "")
 
+  t.fails(function() session:command {name = "mine.a", run = print, parameters = {{name = "p", type = "string", text = "x", hint = "y"}}} end,
+          "session:command: mine.a: parameter p: hint: expected a function, got 'y'")
+
   -- the same line twice
   local device <close> = simulated.barrett {}
   with.connect(t, session, "hand", device)

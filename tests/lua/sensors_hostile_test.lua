@@ -85,6 +85,55 @@ test("silence: a device that never answers is given up, and disconnecting it nev
   end
 end)
 
+test("a hand is stopped while another coroutine waits for its motion, and the command is not repeated", function(t)
+  local session = with.open()
+  local line <close> = clench.port.pty()
+  local received, is_deaf = {}, false
+  loop.spawn(function()
+    while true do
+      local command = line:read_until "\r"
+      if not command then return end
+      received[#received + 1] = command
+      local setting = command:match "^[123S]FGET DP$" and "0\r\n" or command:find "FGET P" and "0 0 0 0\r\n" or ""
+      -- a motion ends only when the hand is told to stop
+      if not is_deaf and not command:find "M$" then line:send(command .. "\r\n" .. setting .. "=> ") end
+    end
+  end)
+  with.connect(t, session, "hand", line)
+  session.hand.dofs = {0, 0, 0, 0}
+  session:run("sensors.push", {max_speed = 1})
+  with.run_until(t, function() return received[#received]:find "M$" end, "no motion")
+  local count = #received
+  session:run "sensors.stop"
+  with.run_until(t, function() return session.sensors.hand.task == nil end, "no stop")
+  t.equal({session.sensors.hand.state, session.sensors.hand.problem}, {"connected"})
+  t.equal(received[count + 1], "T")
+  for i = count + 1, #received do t.ok(not received[i]:find "M$", received[i]) end
+  session:run("sensors.push", {max_speed = 1})
+  with.run_until(t, function() return received[#received]:find "M$" end, "no motion")
+  local began = loop.time()
+  session:run("sensors.disconnect", {device = "hand"})
+  t.ok(loop.time() - began < max_pause)
+  count = #received
+  with.run_until(t, function() return not line:is_open() or received[#received] == "T" end, "no stop")
+  loop.run(0.3)
+  for i = count + 1, #received do t.equal(received[i], "T") end
+
+  -- deaf: disconnecting waits for nothing
+  with.connect(t, session, "hand", simulated.barrett {})
+  local deaf <close> = simulated.barrett {}
+  with.connect(t, session, "hand", deaf)
+  local messages = {}
+  session:subscribe("diagnostic", function(value) messages[#messages + 1] = value.text end)
+  loop.run(0.02)
+  deaf.lose_bytes = 1
+  began = loop.time()
+  session:run("sensors.disconnect", {device = "hand"})
+  t.ok(loop.time() - began < max_pause)
+  with.run_until(t, function() return #messages > 0 end, "no message")
+  t.equal(messages[1], ("the real hand at %s has not confirmed that it has stopped"):format(deaf.path))
+end)
+
 test("a flood is read without stopping the loop", function(t)
   for_all(t, function(line)
     local bytes = ("G\1\2\xFF\xFF\xFD\0\9\x10=> "):rep(5000)

@@ -222,6 +222,9 @@ test("clients of a server use devices, but connect none", function(t)
       local ok, problem = pcall(methods.call, context, "sensors.connect_" .. kind, {path = "/dev/null"}, true)
       t.equal(ok, false)
       t.ok(tostring(problem.message or problem):find "devices are connected by the program of the server only", kind)
+      for _, parameter in ipairs(methods.describe(session, "sensors.connect_" .. kind).parameters) do
+        for field, value in pairs(parameter) do t.ok(type(value) ~= "function", field) end
+      end
     end
   end
   t.equal(session.sensors.glove, nil)

@@ -35,11 +35,23 @@ function methods.is_long(session, name)
   return command and commands.is_long(command) or false
 end
 
+-- parameters without their hints, which are functions
+local function plain(parameters)
+  local out = {}
+  for i, parameter in ipairs(parameters) do
+    out[i] = {}
+    for field, value in pairs(parameter) do
+      if field ~= "hint" then out[i][field] = value end
+    end
+  end
+  return out
+end
+
 --- The description of a method; nil if there is no such method.
 ---@return {name: string, text: string, parameters: table[], reads: boolean, long: boolean, command: boolean}?
 function methods.describe(session, name)
   local entry = own[name] or commands.find(session, name)
-  return entry and {name = name, text = entry.text or entry.label, parameters = entry.parameters or {}, reads = entry.reads == true,
+  return entry and {name = name, text = entry.text or entry.label, parameters = plain(entry.parameters or {}), reads = entry.reads == true,
                     long = methods.is_long(session, name), command = own[name] == nil}
 end
 
