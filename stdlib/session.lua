@@ -15,7 +15,7 @@ function Session:__tostring()
   return ("session of %d commands%s"):format(#self.history.done, self.world and ", " .. tostring(self.world) or ", no world is open")
 end
 
-local groups = {"world", "settings", "file", "edit", "select", "body", "grasp", "eigengrasps", "grasps", "author", "quality", "forces", "planner", "dynamics", "virtual", "sensors", "misc"}
+local groups = {"world", "settings", "file", "edit", "select", "body", "mount", "grasp", "eigengrasps", "grasps", "author", "quality", "forces", "planner", "dynamics", "virtual", "sensors", "misc"}
 local events = {changed = true, diagnostic = true, progress = true, result = true}
 
 local function command_named(self, name)
@@ -65,13 +65,15 @@ end
 local function add_command(self, command)
   if not self.commands[command.name] then self.order[#self.order + 1] = command.name end
   self.commands[command.name] = command
+  self.registrations = self.registrations + 1
 end
 
 --- Registers a command.
----@param command {name: string, run: function, label?: string, shortcut?: string, menu?: string, enabled?: function, parameters?: table[], reads?: boolean, script?: function, replace?: boolean, long?: boolean}
---- name: "group.verb"; run(session, args); enabled(session): can it run now? If not, it may return a reason as its second value; parameters: a list of {name =,
+---@param command {name: string, run: function, label?: string, shortcut?: string, menu?: string, section?: number, enabled?: function, parameters?: table[], reads?: boolean, script?: function, replace?: boolean, long?: boolean}
+--- name: "group.verb"; run(session, args); menu: "Grasp", or "Grasp/Posture" for a submenu; section: the viewer sorts the entries of a menu by it, with a line
+--- between two sections, and those without one come last; enabled(session): can it run now? If not, it may return a reason as its second value; parameters: a list of {name =,
 --- type =, unit =, min =, max =, default =, optional =, choices =, text =, hint =}, where hint() returns the text of its empty field; reads: it changes nothing, and is neither logged nor undone; script(session, args): lines of
---- Lua with the same effect, logged instead of the resulting state; replace: it may replace a command of the same name; long: it may take seconds, so a server
+--- Lua with the same effect, logged instead of the resulting state, or a function of the result that returns them; replace: it may replace a command of the same name; long: it may take seconds, so a server
 --- runs it as a job (requires script or reads)
 function Session:command(command)
   arguments.check_command(command)
@@ -145,6 +147,7 @@ function Session:run(name, args)
     -- the lines are created before the command runs, as it may change names
     lines = command.script and command.script(self, args)
     local result = run_heard(self, command, args)
+    if type(lines) == "function" then lines = lines(result) end
     lines = lines or script.of_change(self, before)
     return result
   end)
@@ -244,7 +247,8 @@ function Session:find(address) return arguments.find(self, address) end
 
 return function(world)
   if world ~= nil and clench.type(world) ~= "world" then raise("clench.session: expected a world, got " .. described(world)) end
-  local session = setmetatable({depth = 0, commands = {}, order = {}, subscribers = {}, selection = {}, stack = {}, postures = {}, jobs = {}, lists = {}, found = {}, sensors = {postures = {}, birds = {}},
+  local session = setmetatable({depth = 0, commands = {}, order = {}, registrations = 0, subscribers = {}, selection = {}, stack = {}, postures = {}, jobs = {}, lists = {},
+                                found = {}, sensors = {postures = {}, birds = {}},
                                 history = history.new()}, Session)
   for _, group in ipairs(groups) do
     for _, command in ipairs(require("clench.session.commands." .. group)) do add_command(session, command) end

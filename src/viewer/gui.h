@@ -142,10 +142,12 @@ class Gui {
   void disabled(bool disabled, Body body);
   void id(const std::string& id, Body body);
   void group(Body body);
+  /// chosen  number of the tab that is opened now, if any
   void tabs(const std::string& id, std::span<const std::string> names,
-            FunctionRef<void(size_t)> body);
+            std::optional<size_t> chosen, FunctionRef<void(size_t)> body);
   struct TreeOptions {
     bool open = false, leaf = false, selected = false;
+    bool unfold = false;  ///< opened now
   };
   /// returns  clicked (1), double-clicked (2) or neither (0)
   int tree(const std::string& label, const TreeOptions& options, Body body);
@@ -189,6 +191,7 @@ class Gui {
   void tooltip(const std::string& text);  ///< of the last widget
   void focus_next();
   void scroll_to_end();
+  void reveal();         ///< scrolls the last widget into view, as little as possible
   bool hovered() const;  ///< is the mouse over the last widget?
   bool active() const;   ///< is the last widget held or edited?
   bool deactivated_after_edit() const;
@@ -199,6 +202,8 @@ class Gui {
   // --- drawing over the picture, under the panels [pixels] ---
   /// Restricts what `body` draws to a rectangle.
   void clip(const GuiRect& rect, Body body);
+  /// Restricts what `body` draws to some of red, green and blue.
+  void channels(const std::array<bool, 3>& colors, Body body);
   void line(std::span<const std::array<double, 2>> points, const Rgba& color, double width,
             bool closed);
   void polygon(std::span<const std::array<double, 2>> points, const Rgba& color);

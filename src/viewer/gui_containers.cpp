@@ -143,11 +143,12 @@ void Gui::group(Body body) {
 }
 
 void Gui::tabs(const std::string& id, std::span<const std::string> names,
-               FunctionRef<void(size_t)> body) {
+               std::optional<size_t> chosen, FunctionRef<void(size_t)> body) {
   if (!ImGui::BeginTabBar(imgui_label(id))) return;
   const Closing closing([] { ImGui::EndTabBar(); });
   for (size_t i = 0; i < names.size(); ++i) {
-    const bool open = ImGui::BeginTabItem(imgui_label(names[i]));
+    const ImGuiTabItemFlags flags = chosen == i ? ImGuiTabItemFlags_SetSelected : 0;
+    const bool open = ImGui::BeginTabItem(imgui_label(names[i]), nullptr, flags);
     state_->note(names[i], "tab");
     if (!open) continue;
     const Closing closing_tab([] { ImGui::EndTabItem(); });
@@ -160,6 +161,7 @@ int Gui::tree(const std::string& label, const TreeOptions& options, Body body) {
   if (options.open) flags |= ImGuiTreeNodeFlags_DefaultOpen;
   if (options.leaf) flags |= ImGuiTreeNodeFlags_Leaf;
   if (options.selected) flags |= ImGuiTreeNodeFlags_Selected;
+  if (options.unfold) ImGui::SetNextItemOpen(true);
   const bool open = ImGui::TreeNodeEx(imgui_label(label), flags);
   state_->note(label, "tree");
   int clicked = 0;

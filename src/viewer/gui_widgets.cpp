@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "clench/base/error.h"
 #include "clench/viewer/gui_state.h"
@@ -189,6 +190,7 @@ void Gui::tooltip(const std::string& text) {
 }
 void Gui::focus_next() { ImGui::SetKeyboardFocusHere(); }
 void Gui::scroll_to_end() { ImGui::SetScrollHereY(1); }
+void Gui::reveal() { ImGui::ScrollToItem(ImGuiScrollFlags_KeepVisibleEdgeY); }
 bool Gui::hovered() const { return ImGui::IsItemHovered(); }
 bool Gui::active() const { return ImGui::IsItemActive(); }
 bool Gui::deactivated_after_edit() const { return ImGui::IsItemDeactivatedAfterEdit(); }
@@ -215,6 +217,23 @@ void Gui::clip(const GuiRect& rect, Body body) {
   list.PushClipRect({pixels(rect.x), pixels(rect.y)},
                     {pixels(rect.x + rect.width), pixels(rect.y + rect.height)}, true);
   const Closing closing([&list] { list.PopClipRect(); });
+  body();
+}
+
+// called between the lists of triangles: the bits of the data are red, green, blue
+static void mask_colors(const ImDrawList*, const ImDrawCmd* command) {
+  const auto bits = reinterpret_cast<std::uintptr_t>(command->UserCallbackData);
+  glColorMask((bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, GL_TRUE);
+}
+
+void Gui::channels(const std::array<bool, 3>& colors, Body body) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const auto mask = [&list](bool red, bool green, bool blue) {
+    const std::uintptr_t bits = (red ? 1U : 0U) | (green ? 2U : 0U) | (blue ? 4U : 0U);
+    list.AddCallback(mask_colors, reinterpret_cast<void*>(bits));
+  };
+  mask(colors[0], colors[1], colors[2]);
+  const Closing closing([&mask] { mask(true, true, true); });
   body();
 }
 

@@ -16,7 +16,6 @@ local max_counts = {max_spread, max_finger, max_finger, max_finger}
 local max_angles = {spread_angle, finger_angle, finger_angle, finger_angle}
 local all = "123S"                 -- the order in which the hand reports values
 local order_of_all = {4, 1, 2, 3}  -- position of each DOF in that order
-local max_interruption = 3         -- [s]
 
 function Barrett:__tostring() return "Barrett hand at " .. self.port.name end
 
@@ -138,9 +137,9 @@ end
 -- ends another coroutine's wait for a reply: the hand replies to a stop at once, and the other command is not repeated
 local function interrupt(self, command)
   self.stops = self.stops + 1
-  local last = clench.clock() + max_interruption
+  local last = clench.clock() + device.max_closing_time
   while self.is_waiting and clench.clock() < last do
-    device.send_now(self.port, command .. "\r")
+    device.send_last(self, command .. "\r")
     clench.loop.sleep(0.05)
   end
 end
@@ -186,14 +185,16 @@ function Barrett:breakaways()
 end
 
 local function try_stop(self, seconds)
-  interrupt(self, "T")
   local reply, why = exchange(self, "T", seconds)
   return reply ~= nil and not error_of(reply), why
 end
 
 --- Switches the motors off and closes the port. A stop that the hand does not confirm is repeated for at most three seconds.
 ---@return boolean stopped  false: the hand has not confirmed it
-function Barrett:close() return device.stop_and_close(self, try_stop, "T\r") end
+function Barrett:close()
+  self.stops = self.stops + 1
+  return device.stop_and_close(self, try_stop, "T\r")
+end
 
 Barrett.__close = function(self) self:close() end
 Barrett.__gc = function(self) device.send_last(self, "T\r") end
@@ -217,5 +218,5 @@ Barrett.__gc = function(self) device.send_last(self, "T\r") end
 --- > barrett:move {9, 0, 0, 0}  --> error: spread: expected 0 to 3.14159 rad, got 9
 return function(options)
   local o = new_options(subject, options)
-  return setmetatable(device.new(subject, o, {move_timeout = o:get "move_timeout", stops = 0}), Barrett)
+  return setmetatable(device.new(subject, o, {max_silent = 10, stops = 0, move_timeout = o:get "move_timeout"}), Barrett)
 end

@@ -94,5 +94,5 @@ Glove.__close = function(self) self:close() end
 --- > raw[2], #raw  --> 20, 22
 return function(options)
   local o = new_options(subject, options)
-  return setmetatable(device.new(subject, o, {readings = o:get "readings"}), Glove)
+  return setmetatable(device.new(subject, o, {max_silent = 10, readings = o:get "readings"}), Glove)
 end

@@ -46,12 +46,10 @@ function device.check_lost(driver, why)
   if why == "closed" or why == "unplugged" then device.fail(driver, why) end
 end
 
-local max_silent = 10  -- attempts in a row to which a device sends nothing
-
---- Repeats an exchange until it yields an answer, at most `driver.attempts` times; raises an error if it never does. Damaged answers may be numerous on a noisy
---- line, silence is not noise.
+--- Repeats an exchange until it succeeds, at most `driver.attempts` times; raises an error if it never does. Damaged answers may be numerous on a noisy line, but
+--- a device that answers also damaged commands is absent if it sends nothing `driver.max_silent` times in a row.
 ---@param doing string  for the message
----@param exchange fun(driver: table, ...): any, string?  the answer; or nil and the reason: "timeout" if nothing was received, otherwise as returned by port:read, or "damaged"
+---@param exchange fun(driver: table, ...): any?, string?  the answer; or nil and the reason, as returned by port:read: "timeout" if nothing was received, or "damaged"
 function device.ask(driver, doing, exchange, ...)
   local silent = 0
   for _ = 1, driver.attempts do
@@ -59,7 +57,7 @@ function device.ask(driver, doing, exchange, ...)
     if answer ~= nil then return answer end
     device.check_lost(driver, why)
     silent = why == "timeout" and silent + 1 or 0
-    if silent == max_silent then break end
+    if silent == driver.max_silent then break end
   end
   device.fail(driver, "timeout", doing)
 end
@@ -102,21 +100,20 @@ function device.median(readings)
   return out
 end
 
---- Sends bytes without waiting.
-function device.send_now(port, bytes)
+local function send_now(port, bytes)
   if port.stream:descriptor() >= 0 then port.stream:write(bytes, 0) end
 end
 
 --- Sends the bytes that stop a device without waiting, unless the driver is closed; for use when a script ends.
 function device.send_last(driver, bytes)
-  if not driver.is_closed then device.send_now(driver.port, bytes) end
+  if not driver.is_closed then send_now(driver.port, bytes) end
 end
 
-local max_closing_time = 3  -- [s]
+device.max_closing_time = 3  -- of a stop that is not confirmed [s]
 
 -- stops a device, repeatedly until it confirms it; false: it has not done so in time
 local function stop_confirmed(driver, stop)
-  local last = clench.clock() + math.min(driver.attempts * driver.timeout, max_closing_time)
+  local last = clench.clock() + math.min(driver.attempts * driver.timeout, device.max_closing_time)
   for _ = 1, driver.attempts do
     local left = last - clench.clock()
     if left <= 0 then return false end
@@ -129,11 +126,11 @@ end
 
 -- stops a device, also while another coroutine waits for an answer; false and the reason: it could not wait for the device
 local function stop_and_wait(driver, stop, last)
-  local until_then = clench.clock() + max_closing_time
+  local until_then = clench.clock() + device.max_closing_time
   while true do
     local ok, stopped = pcall(stop_confirmed, driver, stop)
     if ok then return stopped end
-    device.send_now(driver.port, last)  -- its answer ends the other wait
+    send_now(driver.port, last)  -- its answer ends the other wait
     if is_stopped(stopped) or clench.clock() > until_then or not pcall(clench.loop.sleep, 0.05) then return false, stopped end
   end
 end

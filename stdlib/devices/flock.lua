@@ -133,7 +133,7 @@ end
 --- > (pose.position - clench.vec3(0.3, 0.1, 0.2)):norm() < 3e-4  --> true
 return function(options)
   local o = new_options(subject, options)
-  local fields = {birds = o:get "birds", mode = modes[o:get "mode"], readings = o:get "readings"}
+  local fields = {max_silent = 10, birds = o:get "birds", mode = modes[o:get "mode"], readings = o:get "readings"}
   local flock = setmetatable(device.new(subject, o, fields), Flock)
   configure(flock)
   return flock

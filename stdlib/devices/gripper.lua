@@ -56,6 +56,7 @@ end
 --- As device.new, with the options that all grippers have.
 function gripper.new(subject, o, fields)
   fields.slave, fields.move_timeout, fields.poll = o:get "slave", o:get "move_timeout", o:get "poll"
+  fields.max_silent = 20  -- half of the requests may be damaged, and are not answered
   return device.new(subject, o, fields)
 end
 

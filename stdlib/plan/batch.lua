@@ -202,6 +202,7 @@ function batch.try(job, stats, next_state, options)
   end)
   stats.candidates, stats.hint = number, nil
   if number == 0 then stats.late_start = job:late_start() end
+  stats.out_of_time = out_of_time or nil
   stats.complete = ended == true and not job.stopped and not journal:is_ended() and not out_of_time
     and (exhausted or is_enough() or false)
   -- recorded pieces of later starts are kept if the search ends before them

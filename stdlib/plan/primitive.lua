@@ -21,18 +21,26 @@ local function derived_preshapes(hand)
   return shapes
 end
 
+local preshape_names = {opposing = true, circle = true}
+
+-- the preshapes that are given, by name
 local function read_preshapes(read, hand)
   local given = read:raw "preshapes"
-  local shapes = derived_preshapes(hand)
-  if given == nil then return shapes end
+  if given == nil then return {} end
   if type(given) ~= "table" then read:expected("preshapes", "a table {opposing = dofs, circle = dofs}", given) end
   for name, dofs in pairs(given) do
-    if not shapes[name] then read:fail("preshapes: unknown key '%s'; it has 'opposing' and 'circle'", tostring(name)) end
+    if not preshape_names[name] then read:fail("preshapes: unknown key '%s'; it has 'opposing' and 'circle'", tostring(name)) end
     if type(dofs) ~= "table" or #dofs ~= #hand.dofs then
       read:expected("preshapes." .. name, ("%d numbers, one per DOF"):format(#hand.dofs), dofs)
     end
-    shapes[name] = dofs
   end
+  return given
+end
+
+-- the given preshapes, and those derived from a hand that no arm carries
+local function preshapes_of(hand, given)
+  local shapes = derived_preshapes(hand)
+  for name, dofs in pairs(given) do shapes[name] = dofs end
   return shapes
 end
 
@@ -110,6 +118,7 @@ return function(options)
     own.on_grasp = read:get "on_grasp"
   end)
   local hand = job.hand
+  own.preshapes = preshapes_of(hand, own.preshapes)
   local thumb = own.thumb and hand.pose:rotate(own.thumb) or opposition.thumb(hand)
   if not thumb then require "clench.raise" "plan.primitive: thumb: it cannot be derived, as this hand has no two fingers; set this option" end
   local X_FH = opposition.base_in_frame(hand, hand.approach.point, thumb)

@@ -1,4 +1,5 @@
 --- The report of a planner: counts by reason, best energy over the steps, and, if it found no grasps, the causes.
+local circumstances = require "clench.plan.circumstances"
 local class = require "clench.class"
 local drives = require "clench.drives"
 local facing = require "clench.plan.facing"
@@ -151,9 +152,35 @@ local far = 0.02  -- maximum distance from which most closing fingers reach an o
 
 --- Do the limits of the position keep all fingers away from the object?
 local function out_of_reach(job, stats)
-  if stats.nearest and stats.nearest > far then
+  if stats.nearest and stats.nearest > far and not circumstances.too_short(stats) then
     return ("the hand is still %.0f mm from the object in its best states: it cannot reach the object within the limits of the search"):format(1000 * stats.nearest)
   end
+end
+
+-- causes of a search that ran to its end, the most certain ones first
+local function causes_of(job, stats)
+  local list = {}
+  local function add(cause)
+    if cause then list[#list + 1] = cause end
+  end
+  add(nothing_closes(job))
+  add(nothing_presses(job, stats))
+  add(stats.no_start)
+  add(circumstances.is_arm(job))
+  add(circumstances.collisions_off(job))
+  add(circumstances.no_friction(job))
+  add(arm_causes(stats))
+  add(touch_causes(stats))
+  add(self_collision(job))
+  add(circumstances.too_short(stats))
+  add(out_of_reach(job, stats))
+  add(report.too_wide(job))
+  add(stats.short)
+  add(too_weak(stats))
+  add(search_causes(stats))
+  add(rejected_most(stats))
+  add(circumstances.crowded(job, stats))
+  return list
 end
 
 ---@param job table
@@ -169,13 +196,10 @@ function report.new(job, stats)
   elseif stats.grasps == 0 and stats.late_start then
     stats.causes[1] = stats.late_start
   elseif stats.grasps == 0 then
-    for _, cause in ipairs {nothing_closes(job) or false, nothing_presses(job, stats) or false, stats.no_start or false, arm_causes(stats) or false, touch_causes(stats) or false, self_collision(job) or false, out_of_reach(job, stats) or false, report.too_wide(job) or false, stats.short or false, too_weak(stats) or false,
-                            search_causes(stats) or false, rejected_most(stats) or false} do
-      if cause then stats.causes[#stats.causes + 1] = cause end
-    end
+    stats.causes = causes_of(job, stats)
     if #stats.causes == 0 then stats.causes[1] = "unknown; try more steps or another seed" end
   end
-  stats.verify, stats.best_load, stats.no_start, stats.late_start, stats.short = nil, nil, nil, nil, nil
+  stats.verify, stats.best_load, stats.no_start, stats.late_start, stats.short, stats.out_of_time = nil, nil, nil, nil, nil, nil
   return setmetatable(stats, Report)
 end
 

@@ -5,8 +5,8 @@ local suggest = require "clench.suggest"
 local arguments = {}
 
 local types = {number = true, integer = true, string = true, boolean = true, table = true, pose = true, vec3 = true, body = true, robot = true, any = true}
-local command_fields = {name = true, label = true, shortcut = true, menu = true, enabled = true, run = true, parameters = true, reads = true, script = true, replace = true, long = true}
-local known_fields = {name = true, type = true, unit = true, min = true, max = true, default = true, optional = true, text = true, choices = true, hint = true}
+local command_fields = {name = true, label = true, shortcut = true, menu = true, section = true, enabled = true, run = true, parameters = true, reads = true, script = true, replace = true, long = true}
+local known_fields = {name = true, type = true, unit = true, min = true, max = true, default = true, optional = true, text = true, choices = true, hint = true, in_dialog = true}
 
 -- "ctrl+shift+s": modifiers in this order and a key, in lower case
 local function check_shortcut(command)
@@ -15,6 +15,17 @@ local function check_shortcut(command)
   local key = type(keys) == "string" and keys:gsub("^ctrl%+", ""):gsub("^alt%+", ""):gsub("^shift%+", "")
   if key and #key > 0 and key == key:lower() and not key:find "%s" and not key:find "^.+%+." then return end
   raise(("session:command: %s: shortcut: expected a key in lower case, with ctrl+, alt+ and shift+ before it, in this order, got %s"):format(command.name, described(keys)))
+end
+
+-- "Grasp", or "Grasp/Posture" for a submenu; entries of a menu are sorted by their sections
+local function check_place(command)
+  local menu, section = command.menu, command.section
+  if menu ~= nil and (type(menu) ~= "string" or ("/" .. menu .. "/"):find "//") then
+    raise(("session:command: %s: menu: expected a menu, or a menu and a submenu as in 'Grasp/Posture', got %s"):format(command.name, described(menu)))
+  end
+  if section ~= nil and not (type(section) == "number" and section == section) then
+    raise(("session:command: %s: section: expected a number, got %s"):format(command.name, described(section)))
+  end
 end
 
 --- Raises an error if a field of a command is missing, unknown or of a wrong type.
@@ -29,6 +40,7 @@ function arguments.check_command(command)
     if not command_fields[field] then raise(("session:command: %s: unknown key '%s'"):format(name, tostring(field))) end
   end
   check_shortcut(command)
+  check_place(command)
   for i, parameter in ipairs(command.parameters or {}) do
     if type(parameter) ~= "table" or type(parameter.name) ~= "string" then
       raise(("session:command: %s: parameters[%d]: expected a table with a name, got %s"):format(name, i, described(parameter)))
@@ -140,6 +152,23 @@ local function of_world(world, thing)
   return thing
 end
 
+--- The address of a body or robot.
+function arguments.address(thing)
+  local function escaped(name) return (name:gsub("/", "\\/")) end
+  if clench.type(thing) == "robot" or not thing.robot then return escaped(thing.name) end
+  return escaped(thing.robot.name) .. "/" .. escaped(thing.name)
+end
+
+--- The address of the item of the selection with a number, as the value with which a dialog opens.
+---@param number integer
+---@return fun(session: table): string?
+function arguments.selected(number)
+  return function(session)
+    local thing = session.selection[number]
+    return thing and arguments.address(thing)
+  end
+end
+
 --- The body, robot or link with an address; bodies and robots of the open world are returned unchanged.
 function arguments.find(session, address)
   local world = session.world or raise "session: no world is open"
@@ -173,10 +202,13 @@ function arguments.find_several(session, address)
   return {table.unpack(session.selection)}
 end
 
---- The bodies and robots of a list of addresses.
+--- The bodies and robots of a list of addresses, which is not longer than the list of all of them.
 ---@param name string  of the argument, for errors
 function arguments.find_all(session, name, addresses)
   if #addresses == 0 and next(addresses) ~= nil then raise(("session: %s: expected a list, got %s"):format(name, described(addresses))) end
+  local world = session.world or raise "session: no world is open"
+  local count = #world.bodies + #world.robots
+  if #addresses > count then raise(("session: %s: expected at most %d addresses, of different bodies and robots, got %d"):format(name, count, #addresses)) end
   local found = {}
   for i, address in ipairs(addresses) do found[i] = arguments.find(session, address) end
   return found

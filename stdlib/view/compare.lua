@@ -1,7 +1,7 @@
 --- Two grasps side by side: their pictures by one camera, which turns with that of the view, and their measures in one table.
 local compare = {}
 
-local width, height = 300, 240  -- size of a picture [pixels]
+local width, height = 300, 240  -- size of a picture at scale 1 [pixels]
 local gray, orange = {0.5, 0.5, 0.5}, {0.84, 0.37, 0}
 
 -- the list of chosen grasps, at most two
@@ -81,7 +81,7 @@ local function draw_picture(view, ui, entry, number, camera)
       entry.seen, entry.drawn_with = view.camera, camera.target
       entry.picture = clench.render(entry.world, {size = {width, height}, quality = "draft", camera = camera, transparent_objects = view.display.transparent_objects})
     end
-    ui:image("compared " .. number, entry.picture, {width = width, height = height, changed = is_new})
+    ui:image("compared " .. number, entry.picture, {width = width * view.scale, height = height * view.scale, changed = is_new})
   end)
 end
 
@@ -122,7 +122,8 @@ function compare.draw(view, ui)
   local list = view.compared
   if not list or #list < 2 or not view.session.world then return end
   for _, entry in ipairs(list) do place(view, entry) end
-  local open = ui:window("Compare Grasps", {x = 215, y = 150, width = 2 * width + 40, height = height + 240, movable = true, resizable = true, can_close = true}, function(ui)
+  local scale = view.scale
+  local open = ui:window("Compare Grasps", {x = 215 * scale, y = 150 * scale, width = (2 * width + 40) * scale, height = (height + 240) * scale, movable = true, resizable = true, can_close = true}, function(ui)
     local camera = camera_of(view, list)
     draw_picture(view, ui, list[1], 1, camera)
     ui:same_line(16)

@@ -1,85 +1,12 @@
 --- Dialogs of commands, made from their parameters.
+local fields = require "clench.view.fields"
 local leave = require "clench.view.leave"
+local paths = require "clench.view.paths"
 local results = require "clench.view.planner_results"
 local variables = require "clench.view.planner_variables"
 local dialog = {}
 
 local function is_planner(command) return command.name:find "^planner%." ~= nil end
-
--- text that a field shows for a value of any type
-local function shown(value)
-  if value == nil then return "" end
-  if type(value) == "table" then return require("clench.session.script").literal(value) end
-  return tostring(value)
-end
-
--- the value of a typed text; nil if it is empty
-local function read(parameter, text)
-  if text == "" then return nil end
-  if parameter.type == "number" then return tonumber(text) or text end
-  if parameter.type == "integer" then return math.tointeger(tonumber(text)) or text end
-  if parameter.type == "table" or parameter.type == "vec3" or parameter.type == "pose" or parameter.type == "any" then
-    local f = load("return " .. text, "=" .. parameter.name, "t", {clench = clench, math = math})
-    local ok, value = pcall(f or error, not f and "expected a Lua expression")
-    if ok then return value end
-  end
-  return text
-end
-
--- names of bodies or robots for a choice
-local function names_of(session, kind)
-  local names = {}
-  if not session.world then return names end
-  for i, thing in ipairs(kind == "robot" and session.world.robots or session.world.objects) do names[i] = thing.name end
-  return names
-end
-
-local function index_in(list, value)
-  for i, item in ipairs(list) do
-    if item == value then return i end
-  end
-  return 0
-end
-
-local function draw_choice(ui, state, parameter, choices)
-  local label = "##" .. parameter.name
-  local index, changed = ui:combo(label, index_in(choices, state[parameter.name]), choices)
-  if changed then state[parameter.name] = choices[index] end
-end
-
-local function choices_of(view, parameter)
-  local choices = parameter.choices or (parameter.type == "robot" or parameter.type == "body") and names_of(view.session, parameter.type)
-  return choices and #choices > 0 and choices or nil
-end
-
--- name of the parameter whose field takes the keys when the dialog opens
-local function first_text(view, command)
-  for _, parameter in ipairs(command.parameters or {}) do
-    if parameter.type ~= "boolean" and not choices_of(view, parameter) then return parameter.name end
-  end
-end
-
-local function draw_field(view, ui, state, parameter)
-  local name = parameter.name
-  ui:next_column()
-  ui:text(name:gsub("_", " ") .. (parameter.unit and (" [%s]"):format(parameter.unit) or ""))
-  if parameter.text then ui:tooltip(parameter.text) end
-  ui:next_column()
-  ui:width(210)
-  local choices = choices_of(view, parameter)
-  if choices then
-    draw_choice(ui, state, parameter, choices)
-  elseif parameter.type == "boolean" then
-    local value, changed = ui:checkbox("##" .. name, state[name] == true)
-    if changed then state[name] = value end
-  else
-    local text, changed, entered = ui:text_input("##" .. name, state.texts[name] or shown(state[name]), {hint = state.hints[name] or parameter.optional and "default" or "", on_enter = true, focus = state.focus == name})
-    if state.focus == name then state.focus = nil end
-    state.entered = state.entered or entered
-    if changed then state.texts[name], state[name] = text, read(parameter, text) end
-  end
-  if parameter.text then ui:tooltip(parameter.text) end
-end
 
 local function run(view, command, state)
   local args = {}
@@ -114,15 +41,11 @@ function dialog.fill(view, command)
     if not parameter.optional and parameter.default == nil then asks = true end
   end
   if not asks then return view:run(command.name) end
-  local state = {texts = {}, hints = {}}
-  for _, parameter in ipairs(command.parameters or {}) do
-    state[parameter.name] = parameter.default
-    if parameter.hint then state.hints[parameter.name] = parameter.hint() end
-  end
+  local state = fields.new(view, command)
   if is_planner(command) then state.hand, state.object = view.session.hand.name, view.session.object.name end
   -- in a window the user watches and stops a search: it is limited by time, not by steps
   if is_planner(command) and state.steps then state.steps, state.seconds = 10000000, 60 end
-  if not is_planner(command) then state.focus = first_text(view, command) end
+  if is_planner(command) then state.focus = nil end
   view.dialogs[command.name] = state
 end
 
@@ -133,7 +56,7 @@ local function draw_fields(view, ui, command, state, height)
   ui:child("fields", {height = height}, function(ui)
     ui:table("parameters", {"##name", "##value"}, {}, function(ui)
       for _, parameter in ipairs(command.parameters) do
-        if not variables.shows(command, parameter) then draw_field(view, ui, state, parameter) end
+        if not variables.shows(command, parameter) then fields.draw(view, ui, state, parameter) end
       end
     end)
   end)
@@ -152,21 +75,25 @@ local function draw(view, ui, command, state)
   if is_planner(command) then return draw_planner(view, ui, command, state) end
   -- an error takes its lines from the fields: the window keeps its size, and its buttons remain visible
   local lines = state.error and 3 or 0
-  draw_fields(view, ui, command, state, math.max(math.min(#(command.parameters or {}) * (ui.line_height + 6) + 8, 420) - lines * ui.line_height, 2 * ui.line_height))
+  draw_fields(view, ui, command, state, math.max(fields.height(view, ui, command) - lines * ui.line_height, 2 * ui.line_height))
+  paths.draw(view, ui, command, state)
   if state.error then ui:text(state.error, {color = {0.84, 0.37, 0}, wrap = true}) end
-  if ui:button("OK", {width = 90}) or state.entered then
+  if ui:button("OK", {width = 90 * view.scale}) or state.entered then
     state.entered = nil
     run(view, command, state)
   end
   ui:same_line()
-  if ui:button("Cancel", {width = 90}) then view.dialogs[command.name] = nil end
+  if ui:button("Cancel", {width = 90 * view.scale}) then view.dialogs[command.name] = nil end
 end
 
 --- Closes the open dialogs; those of planners stay, because their searches continue.
+---@return boolean closed  was there one?
 function dialog.cancel(view)
+  local closed = false
   for name in pairs(view.dialogs) do
-    if not is_planner(view.session.commands[name]) then view.dialogs[name] = nil end
+    if not is_planner(view.session.commands[name]) then view.dialogs[name], closed = nil, true end
   end
+  return closed
 end
 
 --- Draws the open dialogs.
@@ -174,9 +101,10 @@ function dialog.draw(view, ui)
   local names = {}
   for name in pairs(view.dialogs) do names[#names + 1] = name end
   table.sort(names)
+  local scale = view.scale
   for i, name in ipairs(names) do
     local command, state = view.session.commands[name], view.dialogs[name]
-    local open = ui:window(title(command), {x = 320 + 24 * i, y = 120 + 24 * i, width = 470, height = is_planner(command) and 520 or 0, movable = true, resizable = true, can_close = true},
+    local open = ui:window(title(command), {x = 320 * scale + 24 * i, y = 120 * scale + 24 * i, width = 470 * scale, height = is_planner(command) and 520 * scale or 0, movable = true, resizable = true, can_close = true},
                            function(ui) draw(view, ui, command, state) end)
     if not open then view.dialogs[name] = nil end
   end

@@ -10,7 +10,7 @@ local function take(view, path)
     leave.ask(view, "open", function() view:run("world.open", {path = path}) end)
   elseif commands[kind] then
     if not view.session.world then view:run "world.new" end
-    view:run(commands[kind], {path = path})
+    view:run(commands[kind], {path = path, place = "free"})
   else
     view:fail(("%s: expected a world, a robot or a body, got %s"):format(path, kind))
   end

@@ -1,5 +1,7 @@
 --- Shows commands in the console: Lua with the same effect, and results in a few readable lines.
+local placing = require "clench.session.placing"
 local script = require "clench.session.script"
+local status = require "clench.view.status"
 local echo = {}
 
 local longest_line = 300  -- maximum length of a command's Lua [bytes]
@@ -59,6 +61,15 @@ function echo.changed(view, event)
   if (event.command or type(event.gesture) == "string") and last then print_lua(view, last.lines) end
 end
 
+-- a command whose result is the file that it has written
+local function is_saver(command) return (command.label or ""):find "^Save" ~= nil end
+
+-- reports what a new body overlaps
+local function warn_of_overlaps(view, added)
+  local names = placing.overlapped(added)
+  if #names > 0 then status.warn(view, ("'%s' overlaps '%s'"):format(added.name, table.concat(names, "', '"))) end
+end
+
 local function is_empty(result) return clench.type(result) == "table" and next(result) == nil end
 
 --- Shows the result of a command, and for a command that only reads also the Lua that runs it.
@@ -68,6 +79,9 @@ function echo.result(view, command, result, args)
     local ok, text = pcall(script.literal, args or {})
     print_lua(view, ("session:run(%q%s)"):format(command.name, ok and text ~= "{}" and ", " .. text or ""))
   end
+  if is_saver(command) and type(result) == "string" then view.status = "Saved " .. result end
+  if command.name == "file.convert" then view.status = "Wrote " .. tostring((args or {}).to) end
+  if command.name:find "^world%.import_" then warn_of_overlaps(view, result) end
   if result == nil or is_empty(result) or command.name:find "^planner%." then return end
   view:print("  " .. echo.text(result), "result")
 end

@@ -75,7 +75,7 @@ local function draw_section(ui, state)
   end
   local changed = state.plotted ~= result
   if changed then state.plotted, state.picture = result, plot_of(result).picture end
-  ui:image("resistible wrenches", state.picture, {width = 248, height = 220, changed = changed})
+  ui:image("resistible wrenches", state.picture, {width = 248 * view.scale, height = 220 * view.scale, changed = changed})
 end
 
 local good = {optimal = true, stable = true, unlimited = true}

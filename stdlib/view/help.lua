@@ -7,7 +7,7 @@ local function draw_action(view, ui, action)
   ui:next_column()
   local is_chosen = view.binding == action.name
   local text = is_chosen and "Press a key" or action.shortcut and keys.shown(action.shortcut) or "none"
-  if ui:button(text .. "##" .. action.name, {width = 130, selected = is_chosen}) then view.binding = not is_chosen and action.name or nil end
+  if ui:button(text .. "##" .. action.name, {width = 130 * view.scale, selected = is_chosen}) then view.binding = not is_chosen and action.name or nil end
   ui:tooltip "Click, then press the new key; Delete removes the key, Escape keeps it."
   ui:next_column()
   ui:text(action.label)
@@ -46,7 +46,8 @@ function help.draw(view, ui)
     ui:text "docs/guide/viewer.md describes the viewer; help() in the console describes a function."
   end) then view.shows_manual = nil end
   if not view.shows_keys then return end
-  local open = ui:window("Keys", {x = 300, y = 100, width = 460, height = 500, movable = true, resizable = true, can_close = true}, function(ui) draw_keys(view, ui) end)
+  local scale = view.scale
+  local open = ui:window("Keys", {x = 300 * scale, y = 100 * scale, width = 460 * scale, height = 500 * scale, movable = true, resizable = true, can_close = true}, function(ui) draw_keys(view, ui) end)
   if not open then view.shows_keys, view.binding = nil, nil end
 end
 

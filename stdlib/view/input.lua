@@ -3,6 +3,7 @@ local check = require "clench.view.check"
 local context = require "clench.view.context"
 local described = require "clench.described"
 local keys = require "clench.view.keys"
+local menu_tree = require "clench.view.menu_tree"
 local raise = require "clench.raise"
 local suggest = require "clench.suggest"
 local input = {}
@@ -99,12 +100,12 @@ local function is_shown(view, label, kind)
   return false
 end
 
---- Chooses the entry of a menu: "Grasp/Auto Grasp".
+--- Chooses the entry of a menu: "Grasp/Auto Grasp". Submenus of commands may be left out.
 function input.menu(view, path)
   check.text("view:menu", "path", path, 1000)
   settle(view)
   if not path:find "^[^/]+/." then raise(("view:menu: path: expected a menu and its entry, as in 'Grasp/Auto Grasp', got %s"):format(described(path))) end
-  local rest = path
+  local rest = menu_tree.complete(view.session, path)
   while not is_shown(view, rest, "menu item") do
     local part, others = rest:match "^([^/]+)/(.+)$"
     if not part then break end

@@ -10,10 +10,13 @@ local menus = require "clench.view.menus"
 local projections = require "clench.view.projections"
 local selection = require "clench.view.selection"
 local splitters = require "clench.view.splitters"
+local status = require "clench.view.status"
+local tools = require "clench.view.tools"
 local layout = {}
 
 local menu_height, bar_height, status_height = 24, 36, 28  -- at scale 1 [pixels]
 local line_height = 28  -- of widgets at scale 1 [pixels]
+local min_bar = 1050  -- width of the complete tool bar at scale 1 [pixels]
 local tall_share = 0.72  -- fraction of the height of its column
 local user_panels = {}  -- panels that scripts have added, by name and in order
 
@@ -54,13 +57,22 @@ local function placed(view, place)
   return list
 end
 
--- panels in one window, each behind a tab
-local function draw_tabs(view, ui, name, list, rect)
+-- Panels in one window, each behind a tab. The open one is view.front[place], which a click or a script changes.
+local function draw_tabs(view, ui, place, list, rect)
   local names, by_name = {}, {}
   for i, panel in ipairs(list) do names[i], by_name[panel.name] = panel.name, panel end
+  local open = view.open_tabs
+  if not open or open.ui ~= ui then open = {ui = ui} end  -- another screen opens its first tab
+  view.open_tabs = open
+  local wanted = by_name[view.front[place]] and view.front[place] ~= open[place] and view.front[place] or nil
+  if wanted then view.needs_frame = true end
   rect.title = false
-  ui:window(name, rect, function(ui)
-    ui:tabs(name .. " tabs", names, function(ui, chosen) draw_panel(view, ui, by_name[chosen]) end)
+  ui:window(place, rect, function(ui)
+    ui:tabs(place .. " tabs", names, function(ui, shown)
+      open[place] = shown
+      if not wanted then view.front[place] = shown end
+      draw_panel(view, ui, by_name[shown])
+    end, wanted)
   end)
 end
 
@@ -89,25 +101,36 @@ local function draw_strip(view, ui, place, list, rect)
   end)
 end
 
--- panels below each other in a column, then those that share a window
+-- heights of the parts of a column: those of the user, or equal ones, or less for the parts above a tall panel
+local function heights_of(view, place, rows, tabs, height)
+  local heights = {}
+  local count = #rows + (#tabs > 0 and 1 or 0)
+  for i = 1, count do heights[i] = height / count end
+  if count == 2 and view.shares[place] then
+    heights[1] = height * view.shares[place]
+    heights[2] = height - heights[1]
+  elseif #tabs > 0 and #rows > 0 and front_of(view, place, tabs).tall then
+    heights[count] = math.max(height / count, height * tall_share)
+    for i = 1, #rows do heights[i] = (height - heights[count]) / #rows end
+  end
+  return heights
+end
+
+-- Panels below each other in a column, then those that share a window. Two parts have a gap between them; returns this edge.
 local function draw_column(view, ui, place, x, y, width, height)
   local rows, tabs = {}, {}
   for _, panel in ipairs(placed(view, place)) do
     local list = panel.tab and tabs or rows
     list[#list + 1] = panel
   end
-  local count = #rows + (#tabs > 0 and 1 or 0)
-  local each = count > 0 and height / count or 0
-  -- a tall panel reduces the space of the others
-  local shared = height - #rows * each
-  if #tabs > 0 and #rows > 0 and front_of(view, place, tabs).tall then
-    shared = math.max(shared, height * tall_share)
-    each = (height - shared) / #rows
-  end
+  local heights = heights_of(view, place, rows, tabs, height)
+  local gap, at = #heights == 2 and splitters.gap or 0, y
   for i, panel in ipairs(rows) do
-    ui:window(panel.name, {x = x, y = y + (i - 1) * each, width = width, height = each}, function(ui) draw_panel(view, ui, panel) end)
+    ui:window(panel.name, {x = x, y = at, width = width, height = heights[i] - (i == 1 and gap or 0)}, function(ui) draw_panel(view, ui, panel) end)
+    at = at + heights[i]
   end
-  if #tabs > 0 then draw_strip(view, ui, place, tabs, {x = x, y = y + #rows * each, width = width, height = shared}) end
+  if #tabs > 0 then draw_strip(view, ui, place, tabs, {x = x, y = at, width = width, height = heights[#heights]}) end
+  return gap > 0 and {at = y + heights[1] - gap, from = x, to = x + width, top = y, height = height} or nil
 end
 
 local function draw_bottom(view, ui, x, y, width, height)
@@ -131,13 +154,14 @@ local function names_of(list)
   return names
 end
 
-local function choose(view, ui, label, list, current, command, argument)
+local function choose(view, ui, text, list, current, command, argument)
   local names, index = names_of(list), 0
   for i, thing in ipairs(list) do
     if thing == current then index = i end
   end
   ui:width(95 * view.scale)
-  local chosen, changed = ui:combo(label, index, names)
+  local chosen, changed = ui:combo("##" .. argument, index, names)
+  ui:tooltip(("%s\nsession:run(%q, {%s = %q})"):format(text, command, argument, current and current.name or "…"))
   if changed then view:run(command, {[argument] = names[chosen]}) end
   ui:same_line()
 end
@@ -145,17 +169,18 @@ end
 local function draw_bar(view, ui, y, width)
   ui:window("tool bar", {x = 0, y = y, width = width, height = bar_height * view.scale, title = false, scroll = false}, function(ui)
     for _, tool in ipairs(view.tools) do
-      if ui:button(tool .. "##tool", {selected = view.current_tool == tool}) then view.current_tool = tool end
-      ui:tooltip(("%s  %s"):format(tool, bindings.shown(view, "tool " .. tool)))
+      if ui:button(tool .. "##tool", {selected = view.current_tool == tool}) then tools.choose(view, tool) end
+      ui:tooltip(("%s\n%s\nview:tool %q"):format(bindings.shown(view, "tool " .. tool), tools.hints[tool] or tool, tool))
       ui:same_line()
     end
-    for _, entry in ipairs {{"Undo", "edit.undo"}, {"Redo", "edit.redo"}, {"Close hand", "grasp.autograsp"}, {"Open hand", "grasp.open"}} do
+    -- in a narrow window these are in the menus only
+    for _, entry in ipairs(width < min_bar * view.scale and {} or {{"Undo", "edit.undo"}, {"Redo", "edit.redo"}, {"Close hand", "grasp.autograsp"}, {"Open hand", "grasp.open"}}) do
       if view.session.commands[entry[2]] then command_button(view, ui, entry[1], entry[2]) end
     end
     local world = view.session.world
     if world then
-      choose(view, ui, "##hand", world.robots, view.session.hand, "grasp.select_hand", "hand")
-      choose(view, ui, "##object", world.objects, view.session.object, "grasp.select_object", "object")
+      choose(view, ui, "Current hand, which commands of the menu Grasp move", world.robots, view.session.hand, "grasp.select_hand", "hand")
+      choose(view, ui, "Current object, which the hand grasps", world.objects, view.session.object, "grasp.select_object", "object")
       selection.draw_bar(view, ui)
       context.draw(view, ui)
     end
@@ -164,11 +189,7 @@ end
 
 local function draw_status(view, ui, y, width, height)
   ui:window("status bar", {x = 0, y = y, width = width, height = height, title = false, scroll = false}, function(ui)
-    local world = view.session.world
-    ui:text(view.status)
-    ui:same_line()
-    ui:text(("   %s   %s%s"):format(view.session.path or "Untitled", view.current_tool, view.session:is_modified() and "   modified" or ""),
-            {color = {0.5, 0.5, 0.55}})
+    status.draw(view, ui)
   end)
 end
 
@@ -176,12 +197,16 @@ local function draw_question(view, ui)
   if view.ask then
     local ask = view.ask
     local open = ui:window(ask.title, {width = 0, modal = true, can_close = true}, function(ui)
-      ui:width(320)
+      ui:width(320 * view.scale)
       local text, _, entered = ui:text_input("path", ask.text, {on_enter = true, focus = not ask.shown})
       ask.text, ask.shown = text, true
       if ui:button("Save##ask") or entered then
-        local ok, message = pcall(ask.done, ask.text)
-        if ok then view.ask = nil else ask.error = tostring(message) end
+        local ok, result = pcall(ask.done, ask.text)
+        if ok then
+          view.ask, view.status = nil, "Saved " .. (type(result) == "string" and result or ask.text)
+        else
+          ask.error = tostring(result)
+        end
       end
       ui:same_line()
       if ui:button "Cancel##ask" then view.ask = nil end
@@ -222,17 +247,18 @@ end
 --- Draws all panels.
 function layout.draw(view, ui)
   local width, height = ui.size[1], ui.size[2]
-  local menu, status = menu_height * view.scale, status_height * view.scale
+  local menu, below_all = menu_height * view.scale, status_height * view.scale
   menus.draw(view, ui)
   draw_bar(view, ui, menu, width)
   local top = menu + bar_height * view.scale
   local left, right, below = splitters.size(view, "left"), splitters.size(view, "right"), splitters.size(view, "bottom")
-  local bottom = height - status - below
-  draw_column(view, ui, "left", 0, top, left, bottom - top)
-  draw_column(view, ui, "right", width - right, top, right, bottom - top)
+  local bottom = height - below_all - below
+  local within_left = draw_column(view, ui, "left", 0, top, left, bottom - top)
+  local within_right = draw_column(view, ui, "right", width - right, top, right, bottom - top)
   draw_bottom(view, ui, 0, bottom, width, below)
   view.edges = edges_of(view, width, height)
-  draw_status(view, ui, height - status, width, status)
+  view.edges["within left"], view.edges["within right"] = within_left, within_right
+  draw_status(view, ui, height - below_all, width, below_all)
   dialog.draw(view, ui)
   compare.draw(view, ui)
   projections.draw_windows(view, ui)

@@ -1,6 +1,7 @@
---- The measuring tool: two clicks measure the distance of two points, a third one the angle at the second.
+--- The measuring tool: two clicks measure the distance of two points, a third one the angle at the second. Points move with the bodies they are on.
 local camera = require "clench.view.camera"
 local handles = require "clench.view.handles"
+local replay = require "clench.view.replay"
 local measure = {}
 
 local color = {0.45, 0.1, 0.5, 1}
@@ -17,6 +18,21 @@ function measure.values(points)
   return distance, math.atan(a:cross(b):norm(), a:dot(b))
 end
 
+--- The measured points, where their bodies are now; none once one of these has been removed.
+---@return vec3[] points  [m]
+function measure.points(view)
+  local points = {}
+  for i, anchor in ipairs(view.measured) do
+    local ok, pose = pcall(function() return replay.shown(view, anchor.body).pose end)
+    if not ok then
+      view.measured = {}
+      return {}
+    end
+    points[i] = pose * anchor.point
+  end
+  return points
+end
+
 local function shown(view, distance)
   return view.units.length == "mm" and ("%.2f mm"):format(distance * 1000) or ("%.5f m"):format(distance)
 end
@@ -24,11 +40,12 @@ end
 --- Adds the point under a pixel; a fourth point begins a new measurement, and a click on nothing ends it.
 function measure.click(view, x, y)
   local hit = view:pick(x, y)
-  local points = view.measured
-  if not hit or #points == 3 then points = {} end
-  if hit then points[#points + 1] = hit.point end
-  view.measured = points
-  local distance, angle = measure.values(points)
+  if not hit or #view.measured == 3 then view.measured = {} end
+  if hit then
+    local pose = replay.shown(view, hit.body).pose
+    view.measured[#view.measured + 1] = {body = hit.body, point = pose:inverse() * hit.point}
+  end
+  local distance, angle = measure.values(measure.points(view))
   if angle then
     view.status = ("Angle %.2f°, distance %s"):format(math.deg(angle), shown(view, distance))
   elseif distance then
@@ -38,9 +55,17 @@ function measure.click(view, x, y)
   end
 end
 
+--- Removes the measurement.
+---@return boolean removed
+function measure.clear(view)
+  local had = #view.measured > 0
+  if had then view.measured, view.status = {}, "Measure: click on a point" end
+  return had
+end
+
 --- Draws the points, the lines between them and their values.
 function measure.draw(view, ui)
-  local points, pixels = view.measured, {}
+  local points, pixels = measure.points(view), {}
   for i, point in ipairs(points) do
     local x, y = camera.project(view.camera, ui.size, point)
     if not x then return end

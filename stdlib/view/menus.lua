@@ -1,44 +1,54 @@
---- The menu bar: menus of the session's commands, in the order of GraspIt!, and those of the view itself.
+--- The menu bar: menus of the session's commands, in the order of GraspIt!, with submenus and sections, and those of the view itself.
 local bindings = require "clench.view.bindings"
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
+local menu_tree = require "clench.view.menu_tree"
 local navigation = require "clench.view.navigation"
 local preferences = require "clench.view.preferences"
 local stereo = require "clench.view.stereo"
+local tools = require "clench.view.tools"
 local units = require "clench.view.units"
 local with_ending = require "clench.session.with_ending"
 local menus = {}
 
 local order = {"File", "Edit", "Element", "Grasp", "Dynamics", "Jobs"}
+local is_first = {}  -- by name
+for _, name in ipairs(order) do is_first[name] = true end
 
-local function draw_command(view, ui, command)
-  local enabled = not command.enabled or (command.enabled(view.session)) and true or false
-  if ui:menu_item(command.label or command.name, {shortcut = bindings.shown(view, command.name), enabled = enabled}) then dialog.open(view, command) end
+-- an entry of the view itself, as an item of a menu
+local function item(section, label, name, f)
+  return {section = section, draw = function(view, ui)
+    if ui:menu_item(label, {shortcut = name and bindings.shown(view, name)}) then f(view) end
+  end}
 end
 
-local own = {
-  File = function(view, ui)
-    ui:disabled(#view.recent == 0, function(ui)
-      ui:menu("Open Recent", function(ui)
-        for i, path in ipairs(view.recent) do
-          if ui:menu_item(("%s##recent%d"):format(path, i)) then preferences.open_recent(view, path) end
-        end
-      end)
+local function draw_recent(view, ui)
+  ui:disabled(#view.recent == 0, function(ui)
+    ui:menu("Open Recent", function(ui)
+      for i, path in ipairs(view.recent) do
+        if ui:menu_item(("%s##recent%d"):format(path, i)) then preferences.open_recent(view, path) end
+      end
     end)
-    ui:separator()
-    if ui:menu_item("Save View…") then
-      view.ask = {title = "Save View", text = "view.png", done = function(path) view:screenshot {path = with_ending(path, ".png"), panels = false} end}
-    end
-    if ui:menu_item("Save Session as Script…") then view.ask = {title = "Save Session as Script", text = "session.lua", done = function(path) view:save_script(path) end} end
-    if ui:menu_item("Exit", {shortcut = bindings.shown(view, "exit")}) then view.wants_exit = true end
-  end,
-  Element = function(view, ui)
-    for _, tool in ipairs(view.tools) do
-      if ui:menu_item(tool, {shortcut = bindings.shown(view, "tool " .. tool), selected = view.current_tool == tool}) then view.current_tool = tool end
-    end
-    ui:separator()
-  end,
-}
+  end)
+end
+
+local function ask_view(view)
+  view.ask = {title = "Save View", text = "view.png", done = function(path)
+    path = with_ending(path, ".png")
+    view:screenshot {path = path, panels = false}
+    return path
+  end}
+end
+
+local function ask_script(view)
+  view.ask = {title = "Save Session as Script", text = "session.lua", done = function(path) view:save_script(path) end}
+end
+
+local function draw_tools(view, ui)
+  for _, tool in ipairs(view.tools) do
+    if ui:menu_item(tool, {shortcut = bindings.shown(view, "tool " .. tool), selected = view.current_tool == tool}) then tools.choose(view, tool) end
+  end
+end
 
 local function view_menu(view, ui)
   if ui:menu_item("Home", {shortcut = bindings.shown(view, "home")}) then view:home() end
@@ -65,6 +75,38 @@ local function help_menu(view, ui)
   if ui:menu_item("About…") then view.shows_about = true end
 end
 
+-- entries of the view itself, by menus
+local own = {
+  File = {{section = 1, draw = draw_recent}, item(5, "Save View…", nil, ask_view), item(5, "Save Session as Script…", nil, ask_script),
+          item(1000, "Exit", "exit", function(view) view.wants_exit = true end)},
+  Element = {{section = 1, draw = draw_tools}},
+  View = {{section = 1, draw = view_menu}},
+  Help = {{section = 1, draw = help_menu}},
+}
+
+local function draw_command(view, ui, command)
+  local enabled, reason = true, nil
+  if command.enabled then enabled, reason = command.enabled(view.session) end
+  if ui:menu_item(command.label or command.name, {shortcut = bindings.shown(view, command.name), enabled = enabled and true or false}) then dialog.open(view, command) end
+  ui:tooltip(not enabled and type(reason) == "string" and reason or ("session:run(%q)"):format(command.name))
+end
+
+-- entries in the order of their sections, with a line between two sections
+local function draw_items(view, ui, items)
+  local section
+  for _, entry in ipairs(menu_tree.sorted(items)) do
+    if section and entry.section ~= section then ui:separator() end
+    section = entry.section
+    if entry.draw then
+      entry.draw(view, ui)
+    elseif entry.command then
+      draw_command(view, ui, entry.command)
+    else
+      ui:menu(entry.name, function(ui) draw_items(view, ui, entry.items) end)
+    end
+  end
+end
+
 -- a menu that Escape closes
 local function draw_menu(view, ui, name, draw)
   ui:menu(name, function(ui)
@@ -75,28 +117,27 @@ local function draw_menu(view, ui, name, draw)
   end)
 end
 
+-- the entries of each menu by its name, and the names in the order of the bar: menus of the view are the last ones
+local function bar_of(view)
+  local by_name, names = {}, {table.unpack(order)}
+  for name, items in pairs(own) do by_name[name] = {table.unpack(items)} end
+  for _, node in ipairs(menu_tree.of(view.session)) do
+    local items = by_name[node.name]
+    if not items and not is_first[node.name] then names[#names + 1] = node.name end
+    -- of two items in one section that of a command comes first
+    by_name[node.name] = table.move(items or {}, 1, #(items or {}), #node.items + 1, node.items)
+  end
+  names[#names + 1], names[#names + 2] = "View", "Help"
+  return by_name, names
+end
+
 --- Draws the menu bar.
 function menus.draw(view, ui)
-  local by_name, names = {}, {}
-  for _, menu in ipairs(view.session:menus()) do by_name[menu.name] = menu.commands end
-  for _, name in ipairs(order) do names[#names + 1] = name end
-  for _, menu in ipairs(view.session:menus()) do
-    local known = false
-    for _, name in ipairs(order) do known = known or name == menu.name end
-    if not known then names[#names + 1] = menu.name end
-  end
+  local by_name, names = bar_of(view)
   ui:menu_bar(function(ui)
     for _, name in ipairs(names) do
-      if by_name[name] or own[name] then
-        draw_menu(view, ui, name, function(ui)
-          if own[name] and name ~= "File" then own[name](view, ui) end
-          for _, command in ipairs(by_name[name] or {}) do draw_command(view, ui, command) end
-          if name == "File" then own.File(view, ui) end
-        end)
-      end
+      if by_name[name] then draw_menu(view, ui, name, function(ui) draw_items(view, ui, by_name[name]) end) end
     end
-    draw_menu(view, ui, "View", function(ui) view_menu(view, ui) end)
-    draw_menu(view, ui, "Help", function(ui) help_menu(view, ui) end)
   end)
 end
 

@@ -1,7 +1,7 @@
 --- The part of planner dialogs below their fields: start, pause and stop of the search, and stepping through its grasps.
 local results = {}
 
-local gray = {0.5, 0.5, 0.5}
+local gray, orange = {0.5, 0.5, 0.5}, {0.84, 0.37, 0}
 
 local function number_of(session, job)
   for i, other in ipairs(session.jobs) do
@@ -21,16 +21,16 @@ local function draw_controls(view, ui, state, start)
   local job = state.job
   local busy = is_busy(job) == true
   ui:disabled(busy, function(ui)
-    if ui:button("Start", {width = 80}) then start() end
+    if ui:button("Start", {width = 80 * view.scale}) then start() end
   end)
   ui:same_line()
   ui:disabled(not busy, function(ui)
     local paused = job and job.state == "paused"
-    if ui:button(paused and "Resume" or "Pause", {width = 80}) then
+    if ui:button(paused and "Resume" or "Pause", {width = 80 * view.scale}) then
       if paused then job:resume() else job:pause() end
     end
     ui:same_line()
-    if ui:button("Stop", {width = 80}) then job:stop() end
+    if ui:button("Stop", {width = 80 * view.scale}) then job:stop() end
   end)
 end
 
@@ -46,7 +46,7 @@ local function draw_steps(view, ui, state, grasps)
   local rank = math.min(state.rank or 0, count)
   local function step(label, to, enabled)
     ui:disabled(not enabled, function(ui)
-      if ui:button(label, {width = 50}) then show(view, state, to) end
+      if ui:button(label, {width = 50 * view.scale}) then show(view, state, to) end
     end)
     ui:same_line()
   end
@@ -60,9 +60,12 @@ end
 local function draw_report(ui, state)
   if state.reported ~= state.job then
     local ok, result = pcall(state.job.result, state.job)
-    state.reported, state.report = state.job, ok and type(result) == "table" and result.report and tostring(result.report) or ""
+    local report = ok and type(result) == "table" and result.report or nil
+    state.reported, state.causes, state.report = state.job, report and report.causes or {}, report and tostring(report) or ""
   end
-  if state.report ~= "" then ui:text(state.report, {wrap = true}) end
+  if #state.causes > 0 then ui:text("Nothing was found, because", {color = orange}) end
+  for _, cause in ipairs(state.causes) do ui:text("- " .. cause, {wrap = true, color = orange}) end
+  if state.report ~= "" then ui:text((state.report:gsub("\nwhy: [^\n]*", "")), {wrap = true, color = gray}) end
 end
 
 --- Draws the controls of a planner.

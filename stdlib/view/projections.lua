@@ -35,7 +35,7 @@ local function draw_settings(view, ui, state)
   end
   for i, name in ipairs(fixed) do
     local label = name .. "##value" .. state.key
-    ui:width(52)
+    ui:width(52 * view.scale)
     local value = edit.number(view, ui, label, "projection " .. label, state.fixed[name], {speed = 0.005, format = "%.3g"})
     ui:tooltip "Its value [N], torques over rho"
     if value then state.fixed[name] = value end
@@ -104,7 +104,7 @@ function projections.draw_windows(view, ui)
   local open = {}
   for i, state in ipairs(view.projections or {}) do
     local title = ("Wrench Space %s##%s"):format(state.key:match "%d+", state.key)
-    local stays = ui:window(title, {x = 280 + 40 * i, y = 60 + 40 * i, width = 330, height = 470, movable = true, resizable = true, can_close = true},
+    local stays = ui:window(title, {x = (280 + 40 * i) * view.scale, y = (60 + 40 * i) * view.scale, width = 330 * view.scale, height = 470 * view.scale, movable = true, resizable = true, can_close = true},
                             function(ui) projections.draw(view, ui, state, 300) end)
     if stays then open[#open + 1] = state end
   end

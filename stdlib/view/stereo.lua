@@ -99,12 +99,14 @@ function stereo.with(view, c, f)
   return f()
 end
 
---- Draws lines and labels over the picture: over each half, or once over an anaglyph, in the plane of the screen.
+--- Draws lines and labels over the picture: in stereo for each eye, over its half or in its colors, so that they have the depth of what they mark.
 ---@param draw fun()
 function stereo.over(view, ui, draw)
-  if not is_halved(view) then return draw() end
+  if not view.stereo then return draw() end
   for _, pane in ipairs(stereo.panes(view)) do
-    stereo.with(view, pane.seen, function() ui:clip(pane.x, 0, pane.width, view.ui.size[2], draw) end)
+    stereo.with(view, pane.seen, function()
+      ui:channels(pane.channels or "all", function() ui:clip(pane.x, 0, pane.width, view.ui.size[2], draw) end)
+    end)
   end
 end
 

@@ -17,7 +17,21 @@ local selection = require "clench.view.selection"
 local stereo = require "clench.view.stereo"
 local tools = {}
 
+local contact_reach = 8  -- distance within which a click hits a contact [pixels]
+
 tools.names = {"Camera", "Select", "Translate", "Rotate", "Measure"}
+
+--- How each tool is used.
+tools.hints = {
+  Camera = "Camera: drag to turn, double click to look at a point",
+  Select = "Select: click on a body; Shift adds, a second click selects the robot",
+  Translate = "Translate: drag a body, or an arrow of the selection; Ctrl snaps, Shift keeps one axis",
+  Rotate = "Rotate: drag a body, or a ring of the selection; Ctrl snaps, Shift keeps one axis",
+  Measure = "Measure: click on a point",
+}
+
+--- Chooses a tool; the status bar shows its use.
+function tools.choose(view, name) view.current_tool, view.status = name, tools.hints[name] end
 
 local function hit_under(view, c, x, y)
   local world = view.session.world
@@ -33,8 +47,22 @@ function tools.pick(view, x, y) return hit_under(view, stereo.under(view, x), x,
 -- the target of a drag of a body: its robot, or the robot that carries that robot's mount; otherwise the body itself
 local function movable(body) return body.robot or body end
 
+-- the number of the listed contact within a few pixels
+local function contact_at(view, x, y)
+  local best, least = nil, contact_reach
+  for i, contact in ipairs(view.quality and view.quality.contacts or {}) do
+    local at_x, at_y = camera.project(stereo.under(view, x), view.ui.size, contact.point)
+    local distance = at_x and math.sqrt((at_x - x) ^ 2 + (at_y - y) ^ 2) or math.huge
+    if distance < least then best, least = i, distance end
+  end
+  return best
+end
+
+-- a click selects a body, and marks the contact that it hits
 local function select_at(view, x, y, adds)
   local hit = tools.pick(view, x, y)
+  view.highlighted = contact_at(view, x, y)
+  if not view.highlighted then view.listed = nil end
   selection.click(view, hit and (adds and hit.body or selection.meant(view, hit.body)), adds)
 end
 
@@ -115,7 +143,9 @@ function tools.update(view)
   if mouse.right.clicked or mouse.middle.clicked then view.press = {kind = "camera", opens_menu = mouse.right.clicked} end
   local press = view.press
   if not press then return end
-  local moved = mouse.dx ~= 0 or mouse.dy ~= 0
+  -- the motion of the frame of a press led to the place of the press
+  local begins = mouse.left.clicked or mouse.right.clicked or mouse.middle.clicked
+  local moved = not begins and (mouse.dx ~= 0 or mouse.dy ~= 0)
   if press.kind == "camera" and moved then
     press.opens_menu = false
     navigation.drag(view, mouse, ctrl_down(ui), shift_down(ui))
@@ -136,16 +166,18 @@ local function draw_highlight(view, ui)
   if x then ui:circle(x, y, 12, {color = {0.84, 0.37, 0, 1}, width = 3}) end
 end
 
-local function draw_handles(view, ui)
+local function draw_handles(view, ui, hovered)
   local list = tools.handles(view)
-  if #list == 0 then return end
+  if #list > 0 then handles.draw(ui, list, hovered) end
+end
+
+-- the handle that is dragged or under the mouse, in the picture in which the mouse is
+local function hovered_handle(view, ui)
+  if view.press then return view.press.drag and view.press.drag.handle end
+  if ui.wants_mouse then return nil end
   local mouse = ui.mouse
-  local hovered = view.press and view.press.drag and view.press.drag.handle
-  if not view.press and not ui.wants_mouse then
-    local handle = handles.at(list, mouse.x, mouse.y)
-    hovered = handle and handle.name
-  end
-  handles.draw(ui, list, hovered)
+  local handle = stereo.with(view, stereo.under(view, mouse.x), function() return handles.at(tools.handles(view), mouse.x, mouse.y) end)
+  return handle and handle.name
 end
 
 local function draw_axes(view, ui)
@@ -155,9 +187,10 @@ end
 
 --- Outlines the selection, and draws its axes, the manipulator and the highlighted contact.
 function tools.draw(view, ui)
+  local hovered = hovered_handle(view, ui)
   stereo.over(view, ui, function()
     draw_highlight(view, ui)
-    draw_handles(view, ui)
+    draw_handles(view, ui, hovered)
     outline.draw(view, ui)
     measure.draw(view, ui)
     draw_axes(view, ui)

@@ -1,4 +1,5 @@
 --- The viewer: a session's world in a window or off-screen, with menus, panels and tools. Every action is a command of the session.
+local arguments = require "clench.session.arguments"
 local autosave = require "clench.view.autosave"
 local bindings = require "clench.view.bindings"
 local camera = require "clench.view.camera"
@@ -7,7 +8,6 @@ local class = require "clench.class"
 local described = require "clench.described"
 local drop = require "clench.view.drop"
 local echo = require "clench.view.echo"
-local error_text = require "clench.error_text"
 local follow = require "clench.view.follow"
 local input = require "clench.view.input"
 local layout = require "clench.view.layout"
@@ -17,6 +17,7 @@ local preferences = require "clench.view.preferences"
 local raise = require "clench.raise"
 local replay = require "clench.view.replay"
 local splitters = require "clench.view.splitters"
+local status = require "clench.view.status"
 local stereo = require "clench.view.stereo"
 local tools = require "clench.view.tools"
 local user_files = require "clench.view.user_files"
@@ -56,18 +57,11 @@ function Viewer:run(name, args)
   self:fail(result)
 end
 
---- Shows an error in the console and in the status bar.
-function Viewer:fail(problem)
-  self.status = error_text(problem)
-  self:print(self.status, "error")
-end
+--- Shows an error in the console and in the status bar, until the next action.
+function Viewer:fail(problem) status.fail(self, problem) end
 
 --- The address of a body or robot.
-function Viewer:address(thing)
-  local escaped = function(name) return (name:gsub("/", "\\/")) end
-  if clench.type(thing) == "robot" or not thing.robot then return escaped(thing.name) end
-  return escaped(thing.robot.name) .. "/" .. escaped(thing.name)
-end
+function Viewer:address(thing) return arguments.address(thing) end
 
 --- Restores the camera that Set Home has stored; without one, frames the grasp.
 ---@param all? boolean  true: frames everything instead
@@ -103,7 +97,7 @@ function Viewer:save_script(path) clench.files.save_text(path, self.session:scri
 local function follow_world(self)
   local world = self.session.world
   if not world or self.shown_world == world then return end
-  self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author = world, nil, {}, nil, nil, nil
+  self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author, self.curves, self.dialogs = world, nil, {}, nil, nil, nil, nil, {}
   self:home()
 end
 
@@ -152,8 +146,8 @@ function Viewer:frame()
     draw_world(self, ui)
     if self.panels_visible then
       tools.draw(self, ui)
-      splitters.draw(self, ui)
       layout.draw(self, ui)
+      splitters.draw(self, ui)  -- behind the panels
     end
     palette.draw(self, ui)
     bindings.update(self)
@@ -228,7 +222,7 @@ end
 function Viewer:tool(name)
   for _, known in ipairs(tools.names) do
     if known == name then
-      self.current_tool = name
+      tools.choose(self, name)
       return input.settle(self)
     end
   end
@@ -287,7 +281,7 @@ return function(options)
   local session = options.session
   local view = setmetatable({
     session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m", angle = "rad"}, edits = {}, front = {}, display = {},
-    panels_visible = true, picture_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, bindings = {}, edges = {}, scale = 1, sizes = {left = splitters.default.left, right = splitters.default.right, bottom = splitters.default.bottom}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
+    panels_visible = true, picture_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, bindings = {}, edges = {}, shares = {}, scale = 1, sizes = {left = splitters.default.left, right = splitters.default.right, bottom = splitters.default.bottom}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
   }, Viewer)
   local size = options.size or options.window and preferences.size()
   view.ui = clench.ui {size = size, window = options.window, title = options.title, dark = options.dark, scale = options.scale}
@@ -299,9 +293,10 @@ return function(options)
   end
   view.subscriptions[#view.subscriptions + 1] = session:subscribe("changed", function(event)
     if not event.selection then replay.leave(view) end
+    status.settle(view, event)
     echo.changed(view, event)
   end)
-  view.subscriptions[#view.subscriptions + 1] = session:subscribe("diagnostic", function(d) view:print(tostring(d.message or d.text or d), d.severity) end)
+  view.subscriptions[#view.subscriptions + 1] = session:subscribe("diagnostic", function(d) status.log(view, d) end)
   if options.window then
     local settings, state = user_files.settings(), user_files.state()
     view.kept = {preferences.keep(view, settings and settings .. "/viewer.json"), autosave.keep(view, state)}

@@ -1,5 +1,5 @@
 -- A server under load, from other processes: requests per second beside a bare echo of lines in the same process, the cost of states at 500 Hz, and how long a
--- client waits among 64.
+-- client waits among 64, and beside others that send the worst requests of each kind.
 --   clench -q run tests/bench/serve.lua [--seconds S] [--check] [--csv FILE]    S: duration of a measurement
 local clench = require "clench"
 local requests = dofile "tests/bench/serve_requests.lua"
@@ -48,8 +48,8 @@ end
 
 local function start_server(hertz)
   local process, line = start("served.lua", hertz)
-  local port, echo, token = line:match "(%d+)%s+(%d+)%s+(%w+)"
-  process.port, process.echo, process.token = tonumber(port), tonumber(echo), token
+  local port, echo, http, token = line:match "(%d+)%s+(%d+)%s+(%d+)%s+(%w+)"
+  process.port, process.echo, process.http, process.token = tonumber(port), tonumber(echo), http ~= "0" and tonumber(http), token
   return process
 end
 
@@ -168,6 +168,18 @@ local function measure_waits(server)
   add("longest processor time of the server during a wait", 1e3 * median(times), "ms")
 end
 
+-- waits beside the worst requests of each kind
+local function measure_worst(server)
+  local worst, busiest = 0, 0
+  dofile "tests/bench/serve_worst.lua"(server, 2 * seconds, function(name, wait, busy)
+    add(("wait beside 7 clients that send %s"):format(name), 1e3 * wait, "ms")
+    add("  processor time of the server meanwhile", 1e3 * busy, "ms")
+    worst, busiest = math.max(worst, wait), math.max(busiest, busy)
+  end)
+  add("longest wait beside others' worst requests", 1e3 * worst, "ms")
+  add("longest processor time of the server during such a wait", 1e3 * busiest, "ms", 50, true)
+end
+
 do
   local server <close> = start_server()
   for _, depth in ipairs {1, 100} do
@@ -177,6 +189,7 @@ end
 do
   local server <close> = start_server()
   measure_waits(server)
+  measure_worst(server)
 end
 measure_states()
 

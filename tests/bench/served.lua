@@ -1,11 +1,12 @@
 -- The process that tests/bench/serve.lua measures: a server of a world, and beside it one that sends each line back over the same ports.
--- Prints both ports and the token.
+-- Prints both ports, the port of the live page (0 without three.js) and the token.
 --   clench -q run tests/bench/served.lua [HZ]    HZ: the object is moved so often
 local clench = require "clench"
 local loop = clench.loop
 
 local world = clench.load "worlds/barrett_mug.wld"
-local server = clench.control.server {world = world, port = 0, max_clients = 100}
+local http = require "clench.page.three"() and 0 or nil
+local server = clench.control.server {world = world, port = 0, http = http, control = http and true, max_clients = 100}
 local listener = clench.port.listen {port = 0}
 
 local function echo(port)
@@ -38,6 +39,6 @@ if arg[1] then
   end)
 end
 
-print(server.port, listener.port, server.token)
+print(server.port, listener.port, server.http or 0, server.token)
 io.stdout:flush()
 loop.run()

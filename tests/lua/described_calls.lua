@@ -191,6 +191,8 @@ add("clench.files.save_pregrasps", {point = {0, 0, 0}, direction = {0, 0, -1}, t
 end)
 add("clench.convert", {}, function(options) return clench.convert("models/objects/cube.iv", "build/ranges.obj", options) end)
 add("clench.json.encode", {}, function(options) return clench.json.encode({a = {1, 2}}, options) end)
+add("clench.json.decode", {}, function(options) return clench.json.decode("[1, [2]]", options) end)
+add("clench.json.split", {}, function(options) return clench.json.split("[1, [2]]", options) end)
 add("clench.parallel.map", {}, function(options) return clench.parallel.map(function(x) return x end, {1, 2}, options) end)
 
 -- user interfaces: calls within a window

@@ -139,3 +139,59 @@ test("if there are too many grasps, those from different sides are kept first", 
   for i = 2, 8 do t.ok(chosen[i - 1].epsilon >= chosen[i].epsilon) end
   t.equal(#spread(hand, all, #all + 1), #all)
 end)
+
+test("causes name what is wrong with the world or with the limits of the search, and the remedy helps", function(t)
+  local function has(run, words)
+    for _, cause in ipairs(run.report.causes) do
+      if cause:find(words, 1, true) then return true end
+    end
+    return false
+  end
+  local hand, box = scene(0.6)
+  hand.world:set_collision(false, hand, box)
+  local run = sample(hand, box)
+  t.equal(#run.grasps, 0)
+  t.ok(run.report.causes[1]:find("the collisions of parallel_jaw and box are switched off", 1, true), run.report.causes[1])
+  hand.world:set_collision(true, hand, box)
+  t.ok(#sample(hand, box).grasps > 0)
+  t.ok(has(sample(scene(0)), "the friction between parallel_jaw and box is 0"))
+  t.ok(not has(sample(scene(0.08)), "is 0:"))
+  local short = sample(scene(0.08))
+  t.ok(not has(short, "candidates were tried: use more"))
+  local hand, box = scene(0.08)
+  t.ok(has(sample(hand, box, {candidates = 3}), "only 3 candidates were tried: use more candidates"))
+  -- a box between walls
+  hand, box = scene(0.6)
+  for i, at in ipairs {{0.04, 0, 1}, {-0.04, 0, 1}, {0, 0.05, 1}, {0, -0.05, 1}, {0, 0, 1.09}, {0, 0, 0.91}} do
+    hand.world:add_obstacle(clench.shapes.box {i < 3 and 0.02 or 0.3, i > 2 and i < 5 and 0.02 or 0.3, i > 4 and 0.02 or 0.3}, {name = "wall" .. i, pose = {xyz = at}})
+  end
+  local run = sample(hand, box)
+  t.equal(#run.grasps, 0)
+  t.ok(has(run, "the hand finds too little space around box: wall1"), tostring(run.report))
+end)
+
+test("a search that is too short says so, instead of a limit of reach", function(t)
+  local world = clench.load("worlds/barrett_mug.wld", {root = "."})
+  local run = clench.plan.anneal {hand = world.robots[1], object = world.objects[1], steps = 5, seed = 1}
+  t.equal(#run.grasps, 0)
+  t.equal(run.report.causes, {"the search made only 5 steps: use more steps"})
+  local circumstances = require "clench.plan.circumstances"
+  t.equal(circumstances.too_short {out_of_time = true, seconds = 0.5, candidates = 36}, "the time was over after 0.5 s, before all 36 candidates were tried: allow more seconds")
+  t.equal(circumstances.too_short {candidates = 1}, "only 1 candidate was tried: use more candidates")
+  t.equal(circumstances.too_short {steps = 500}, nil)
+end)
+
+test("the primitive planner plans for a hand on an arm, and a search that moves the arm instead names the hand", function(t)
+  local world = clench.load("worlds/puma_barrett_glass.wld", {root = "."})
+  local glass, hand = world.objects[1], nil
+  for _, robot in ipairs(world.robots) do hand = robot.parent and robot or hand end
+  local before = world:hash()
+  local run = clench.plan.primitive {hand = hand, object = glass, density = 1}
+  t.ok(run.report.found > 0, tostring(run.report))
+  t.equal(world:hash(), before)
+  local far = glass.pose.position + clench.vec3(5, 0, 0.3)
+  glass.pose = {xyz = {far.x, far.y, far.z}}
+  local wrong = clench.plan.sample {hand = hand.parent, object = glass, candidates = 2, seed = 1, refine = 0}
+  t.equal(#wrong.grasps, 0)
+  t.ok(wrong.report.causes[1]:find("the search moves puma560, which carries barrett: choose barrett as the hand", 1, true) or wrong.report.causes[2]:find("choose barrett as the hand", 1, true), tostring(wrong.report))
+end)

@@ -17,7 +17,7 @@ local function run_until(t, is_over)
   t.ok(is_over())
 end
 
-local logged_by_result = {["grasp.apply"] = true, ["sensors.apply"] = true, ["sensors.pull"] = true}
+local logged_by_result = {["body.place_on"] = true, ["grasp.apply"] = true, ["sensors.apply"] = true, ["sensors.pull"] = true}
 
 test("every command is described: label, parameters with a text, and a unique shortcut", function(t)
   local session, shortcuts = clench.session(), {}
@@ -47,6 +47,8 @@ test("every command is described: label, parameters with a text, and a unique sh
   t.fails(function() session:command {name = "mine.a", run = nothing, shortcut = "ctrl+g"} end, "mine.a: shortcut: 'ctrl+g' belongs to grasp.autograsp")
   t.fails(function() session:command {name = "mine.a", run = nothing, shortcut = "Ctrl+J"} end, "mine.a: shortcut: expected a key in lower case")
   t.fails(function() session:command {name = "mine.a", run = nothing, shortcut = "shift+ctrl+j"} end, "in this order, got 'shift+ctrl+j'")
+  t.fails(function() session:command {name = "mine.a", run = nothing, menu = "Grasp//Mine"} end, "mine.a: menu: expected a menu, or a menu and a submenu")
+  t.fails(function() session:command {name = "mine.a", run = nothing, menu = "Grasp", section = "first"} end, "mine.a: section: expected a number, got 'first'")
   session:command {name = "mine.a", run = nothing, shortcut = "ctrl++"}
   session:command {name = "grasp.autograsp", run = nothing, shortcut = "ctrl+g", replace = true}
 end)
@@ -341,4 +343,122 @@ test("files are checked, converted, saved and drawn by commands", function(t)
   t.equal(session:run("file.convert", {from = "models/objects/mug.iv", to = folder .. "/mug.stl"}), "body")
   t.equal(#session.history.done, 1)
   t.ok(not session:is_modified())
+end)
+
+test("a hand is mounted on an arm and dismounted like by the functions, and the script repeats it", function(t)
+  local session = clench.session()
+  session:run "world.new"
+  t.equal({session.commands["body.mount"].enabled(session)}, {false, "there is no other robot"})
+  session:run("world.import_robot", {path = "models/arms/ur5/ur5.cfg"})
+  session:run("world.import_robot", {path = "models/hands/parallel_jaw/parallel_jaw.cfg", options = {pose = {xyz = {0.5, 0.5, 0}}}})
+  local arm, hand = session.world.robots[1], session.world.robots[2]
+  t.equal({session.commands["body.dismount"].enabled(session)}, {false, "no robot is mounted"})
+  session:run("body.mount", {on = arm.name, pose = {xyz = {0, 0, 0.01}}})
+  t.equal(hand.parent == arm, true)
+  local other = clench.world()
+  local other_arm, other_hand = other:add_robot "models/arms/ur5/ur5.cfg", other:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg"
+  other_hand:mount_on(other_arm, {pose = {xyz = {0, 0, 0.01}}})
+  t.equal(hand.pose == other_hand.pose, true)
+  t.equal(replayed(session):hash(), session.world:hash())
+  local mounted = hand.pose
+  session:run "body.dismount"
+  t.equal(hand.parent, nil)
+  t.equal(hand.pose == mounted, true)
+  t.equal(replayed(session):hash(), session.world:hash())
+  t.fails(function() session:run("body.mount", {on = hand.name}) end, "body.mount: on: expected another robot than '" .. hand.name .. "'")
+end)
+
+-- a world with a table, whose top is 550 mm square and 450 mm high
+local function at_a_table()
+  local session = clench.session()
+  session:run "world.new"
+  session:run("world.import_obstacle", {path = "models/obstacles/table.iv", place = "free"})
+  return session
+end
+
+local function inside(bounds, other)
+  return bounds.low.x >= other.low.x and bounds.high.x <= other.high.x and bounds.low.y >= other.low.y and bounds.high.y <= other.high.y
+end
+
+test("imported bodies are placed where they are free, resting on the table, and the script repeats it", function(t)
+  local session = at_a_table()
+  local world = session.world
+  for _, name in ipairs {"mug", "glass", "mug", "box", "banana"} do
+    local path = ("models/objects/%s.iv"):format(name)
+    local messages = clench.log.collect(function()
+      local body = session:run("world.import_object", {path = path, place = "free"})
+      local bounds = body.bounds_in_world
+      t.ok(inside(bounds, world:body "table".bounds_in_world), body.name)
+      t.close(bounds.low.z, 0.45, 2 * world.contact_threshold)
+      t.ok(#world:contacts(body, world:body "table") > 0, body.name)
+    end)
+    t.ok(tostring(messages[1].message or messages[1].text):find "rests on 'table'", path)
+  end
+  t.equal(#world:colliding(), 0)
+  -- what is at the origin stays there if it is free; what is not free goes elsewhere
+  local hand = session:run("world.import_robot", {path = "models/hands/barrett/barrett.cfg", place = "free"})
+  t.equal(#world:colliding(hand), 0)
+  session:run("world.import_object", {path = "models/objects/mug.iv", pose = {xyz = {1, 0, 2}}, place = "free"})
+  t.close(session.object.pose.position, {1, 0, 2}, 1e-12)
+  session:run("world.import_object", {path = "models/objects/plate.iv", place = "free"})
+  t.equal(#world:colliding(), 0)
+  local again = load(session:script() .. "\nreturn world")()
+  t.equal(again:hash(), world:hash())
+  t.fails(function() session:run("world.import_object", {path = "models/objects/mug.iv", place = "fre"}) end, "place: expected origin, free, got 'fre'")
+  -- by default it stays at the origin, as in scripts until now
+  local before = #world.objects
+  session:run("world.import_object", {path = "models/objects/mug.iv"})
+  t.close(world.objects[before + 1].pose.position, {0, 0, 0}, 1e-12)
+end)
+
+test("bodies are put on others: straight down, or at the nearest free spot", function(t)
+  local session = at_a_table()
+  local world = session.world
+  local cube = world:add_object(clench.shapes.box {0.1, 0.1, 0.1}, {name = "cube", pose = {xyz = {0.05, -0.02, 0.9}}})
+  local ball = world:add_object(clench.shapes.sphere {0.05}, {name = "ball", pose = {xyz = {0.05, -0.02, 0.7}}})
+  t.equal(session:run("body.place_on", {body = "ball"}) == world:body "table", true)
+  t.close(ball.pose.position, {0.05, -0.02, 0.5}, 2 * world.contact_threshold)
+  -- the cube's bottom rests on the top of the ball below it
+  session:run("world.select", {addresses = {"cube"}})
+  t.equal(session:run "body.place_on" == ball, true)
+  t.close(cube.pose.position, {0.05, -0.02, 0.6}, 2 * world.contact_threshold)
+  -- on the table, it is beside the ball
+  session:run("body.place_on", {body = "cube", on = "table"})
+  t.close(cube.pose.position.z, 0.5, 2 * world.contact_threshold)
+  t.ok(world:distance(cube, ball) > 0)
+  t.ok(inside(cube.bounds_in_world, world:body "table".bounds_in_world))
+  local hash = world:hash()
+  session:undo()
+  session:redo()
+  t.equal(world:hash(), hash)
+  local pose = cube.pose
+  t.fails(function() session:run("body.place_on", {body = "table"}) end, "there is nothing below 'table'")
+  t.fails(function() session:run("body.place_on", {body = "cube", on = "cube"}) end, "on: expected another body than 'cube'")
+  cube.pose = ball.pose
+  t.fails(function() session:run("body.place_on", {body = "cube"}) end, "'cube' overlaps 'ball': choose a body to put it on, or move it above")
+  cube.pose = pose
+  local slab = world:add_obstacle(clench.shapes.box {3, 3, 0.01}, {name = "roof", pose = {xyz = {0, 0, 0.47}}})
+  t.fails(function() session:run("body.place_on", {body = "cube", on = "table"}) end, "there is no free spot on 'table' for 'cube'")
+  world:remove(slab)
+  session:run("world.select", {addresses = {"cube", "ball"}})
+  t.fails(function() session:run "body.place_on" end, "expected one body or robot, got 2")
+  -- an arm with its hand is put down as one
+  local arm = clench.load("worlds/puma_barrett_glass.wld", {root = "."})
+  local other = clench.session(arm)
+  local hand, puma = other.hand, nil
+  for _, robot in ipairs(arm.robots) do
+    if robot.parent then hand = robot else puma = robot end
+  end
+  t.fails(function() other:run("body.place_on", {body = hand.name}) end, ("'%s' is mounted on '%s'"):format(hand.name, puma.name))
+end)
+
+test("the current hand of a world is its first robot with fingers, not the arm that carries it", function(t)
+  local session = clench.session()
+  session:open("worlds/puma_barrett_glass.wld", {root = "."})
+  t.equal(session.world.robots[1].name, "puma560")
+  t.equal(session.hand.name, "barrett")
+  session:run("body.remove", {body = "barrett"})
+  t.equal(session.hand.name, "puma560")
+  session:undo()
+  t.equal(session.hand.name, "barrett")
 end)

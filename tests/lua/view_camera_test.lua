@@ -137,15 +137,71 @@ test("two clicks measure a distance, three an angle", function(t)
   local a, b, c = view:pick(300, 120).point, view:pick(330, 120).point, view:pick(320, 160).point
   view:click(300, 120)
   view:click(330, 120)
-  t.close(measure.values(view.measured), (a - b):norm(), 1e-9)
+  t.close(measure.values(measure.points(view)), (a - b):norm(), 1e-9)
   t.ok(view.status:find "^Distance 0%.", view.status)
   view:click(320, 160)
-  local _, angle = measure.values(view.measured)
+  local _, angle = measure.values(measure.points(view))
   t.close(math.cos(angle), (a - b):unit():dot((c - b):unit()), 1e-6)
   t.ok(view.status:find "^Angle", view.status)
   view:click(300, 120)
   t.equal(#view.measured, 1)
   view:click(3, 3)
   t.equal(#view.measured, view:pick(3, 3) and 2 or 0)
+  view:close()
+end)
+
+test("Escape and a click on nothing end a measurement, and each tool says how it is used", function(t)
+  local _, view = open()
+  view:key "5"
+  t.equal(view.status, "Measure: click on a point")
+  view:click(300, 120)
+  view:click(330, 120)
+  t.equal(#view.measured, 2)
+  view:key "escape"
+  t.equal(#view.measured, 0)
+  t.equal(view.status, "Measure: click on a point")
+  for _, name in ipairs(view.tools) do
+    view:tool(name)
+    t.equal(view.status:match "^(%a+): ", name)
+  end
+  view:close()
+end)
+
+-- a frame that takes so long that the mouse comes from elsewhere and is pressed within it
+local function press_from_afar(view, x, y, code)
+  view.ui:input {kind = "move", x = 20, y = 20}
+  view:frame()
+  view.ui:input {kind = "move", x = x, y = y}
+  view.ui:input {kind = "button", code = code, down = true}
+  view:frame()
+  view.ui:input {kind = "button", code = code, down = false}
+  view:frame()
+end
+
+test("the way of the mouse to the place of a press moves neither the camera nor a body", function(t)
+  local session, view = open()
+  local before, hash = view.camera, session.world:hash()
+  for code = 0, 2 do press_from_afar(view, 320, 160, code) end
+  t.ok(same(view.camera, before))
+  view:tool "Translate"
+  press_from_afar(view, 320, 160, 0)
+  t.equal(session.selection[1] == session.world:robot "barrett" or session.selection[1].robot == session.world:robot "barrett", true)
+  t.equal(session.world:hash(), hash)
+  t.ok(same(view.camera, before))
+  view:close()
+end)
+
+test("measured points move with their bodies, and vanish with them", function(t)
+  local session, view = open()
+  local mug, hand = session.object, session.hand
+  local a, b = hand.base.pose.position, mug.pose.position
+  view.measured = {{body = hand.base, point = clench.vec3(0, 0, 0)}, {body = mug, point = clench.vec3(0, 0, 0)}}
+  t.close(measure.values(measure.points(view)), (a - b):norm(), 1e-12)
+  session:run("body.move", {body = "mug", pose = {xyz = {a.x, a.y, a.z - 0.3}, rpy = {0.2, 0.3, 0.4}}})
+  view:frame()
+  t.close(measure.values(measure.points(view)), 0.3, 1e-12)
+  session:run("body.remove", {body = "mug"})
+  t.equal(measure.points(view), {})
+  t.equal(view.measured, {})
   view:close()
 end)

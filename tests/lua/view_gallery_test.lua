@@ -114,3 +114,28 @@ test("a grasp of another hand says why it cannot be put here", function(t)
   t.ok(view.status:find "there is no such hand in this world", view.status)
   view:close()
 end)
+
+test("pictures are kept when a list grows or changes its order, and their places do not move", function(t)
+  local session, view = open()
+  local path, list = file_of_grasps()
+  os.remove(path)
+  local grasps = {list[1]}
+  session.lists[1] = {name = "growing", grasps = grasps}
+  for _ = 1, 3 do view:frame() end
+  local first
+  for _, picture in pairs(view.gallery.by_key) do first = picture end
+  local place = items_of(view, "^grasp 1$")[1]
+  table.insert(grasps, 1, list[2])
+  view:frame()
+  local count = 0
+  for _ in pairs(view.gallery.by_key) do count = count + 1 end
+  t.equal(count, 2)
+  t.equal(view.gallery.uploaded[2] == first, true)
+  local now = items_of(view, "^grasp %d$")
+  t.equal(#now, 2)
+  t.equal({now[1].x, now[1].y}, {place.x, place.y})
+  grasps[1], grasps[2] = grasps[2], grasps[1]
+  view:frame()
+  t.equal(view.gallery.uploaded[1] == first, true)
+  view:close()
+end)

@@ -268,3 +268,105 @@ test("the dialog of a planner that finds nothing shows why", function(t)
   t.ok(state.report:find "nothing touched: 1" and state.report:find "friction", state.report)
   view:close()
 end)
+
+test("print writes into the console, also in functions that fail, and Up and Down recall lines", function(t)
+  local _, view = open()
+  local before = print
+  local function enter(text)
+    for _, line in ipairs(view:items()) do
+      if line.kind == "input" and line.window == "bottom" then view:click(line.x + 10, line.y + line.height / 2) end
+    end
+    view:type(text)
+    view:key "enter"
+  end
+  enter "print(hand.name, 1 + 1)"
+  t.equal(view.lines[#view.lines].text, view.session.hand.name .. "\t2")
+  enter "(function() print 'so far' error 'no further' end)()"
+  local text = console_of(view)
+  t.ok(text:find "\nso far\n.*no further", text)
+  t.equal(print == before, true)
+  view:key "up"  -- the input has the keys again
+  t.ok(view.console_text:find "so far", view.console_text)
+  view:key "up"
+  t.equal(view.console_text, "print(hand.name, 1 + 1)")
+  view:key "up"
+  view:key "down"
+  view:key "down"
+  t.equal(view.console_text, "")
+  view:key "up"
+  view:key "up"
+  local count = #view.lines
+  view:key "enter"
+  t.equal(#view.lines, count + 2)
+  view:close()
+end)
+
+test("empty panels say what to do, and the inspector shows the facts of the world while nothing is selected", function(t)
+  local session, view = open()
+  view:frame()
+  t.ok(texts_of(view):find "Ctrl%+P finds a command", "console")
+  for _, text in ipairs {"1 robot, 4 DOFs", "1 object, 0 obstacles", "worlds/barrett_mug.wld", "0.000 s, in steps of"} do t.ok(texts_of(view):find(text, 1, true), text) end
+  t.ok(texts_of(view):find(("%s, %.4g kg"):format(session.object.name, session.object.mass), 1, true))
+  session:run "grasp.autograsp"
+  view:frame()
+  t.equal(texts_of(view):find "Ctrl%+P finds a command", nil)
+  view:close()
+end)
+
+test("the status bar names what overlaps, counts contacts, and confirms what was saved; an error stays until the next action", function(t)
+  local session, view = open()
+  view:frame()
+  t.ok(texts_of(view):find "no overlap", "nothing overlaps")
+  session:run("body.move", {body = "mug", pose = session.hand.pose})
+  view:frame()
+  local pair = session.world:colliding()[1]
+  t.ok(texts_of(view):find(("overlap: %s and %s"):format(pair[1].name, pair[2].name), 1, true), "the first pair")
+  session:undo()
+  session:run "grasp.autograsp"
+  view:frame()
+  local count = #session.world:contacts(session.hand, session.object)
+  t.ok(texts_of(view):find(("touch: %d contacts"):format(count), 1, true), "contacts")
+  local path = os.tmpname() .. ".wld"
+  view:run("world.save_as", {path = path})
+  t.equal(view.status, "Saved " .. path)
+  os.remove(path)
+  view:run("body.remove", {body = "mgu"})
+  local problem = view.status
+  t.ok(problem:find "mgu", problem)
+  for _ = 1, 3 do view:frame() end
+  t.equal(view.status, problem)
+  view:run "grasp.open"
+  t.equal(view.status, "")
+  view:run("world.import_object", {path = "models/objects/mug.iv", pose = session.object.pose})
+  t.ok(view.status:find "'mug_2' overlaps 'mug'", view.status)
+  view:close()
+end)
+
+test("the dialog of an import has fields for the pose, and places the body by itself without them", function(t)
+  local session, view = open()
+  local path = "models/objects/box.iv"
+  view:menu "File/Import Object…"
+  view:frame()
+  view:type(path)
+  view:key "enter"
+  t.equal(#session.world.objects, 2)
+  t.equal(#session.world:colliding(session.world.objects[2]), 0)
+  t.ok(view.status:find "'box' is", view.status)
+  view:menu "File/Import Object…"
+  view:frame()
+  view:type(path)
+  view:frame()
+  local field
+  for _, found in ipairs(view:items()) do field = field or found.kind == "drag" and found.y > 150 and found.y < 420 and found.x > 330 and found.x < 760 and found end
+  view:drag(field.x + 10, field.y + 8, field.x + 110, field.y + 8)
+  local pose = view.dialogs["world.import_object"].pose
+  t.ok(pose.position.x > 0.05, tostring(pose))
+  view:click_label "OK"
+  t.close(session.world.objects[3].pose.position, pose.position, 1e-12)
+  view:select "box"
+  view:menu "Element/Move…"
+  view:frame()
+  t.equal(view.dialogs["body.move"].body, "box")
+  t.close(view.dialogs["body.move"].pose.position, session.world:body "box".pose.position, 1e-12)
+  view:close()
+end)

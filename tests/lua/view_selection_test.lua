@@ -76,3 +76,54 @@ test("the outline is the convex hull of the visible part", function(t)
   t.equal(#hull, 4)
   t.equal(hull[1][1] + hull[1][2], 0)
 end)
+
+local function item(view, label, kind)
+  for _, found in ipairs(view:items()) do
+    if found.label == label and found.kind == kind then return found end
+  end
+end
+
+test("what is selected in the picture is shown in the tree: its branch is opened and scrolled to", function(t)
+  local session = clench.session()
+  session:open("worlds/shadow_bottle.wld", {root = "."})
+  local view = clench.view.offscreen {session = session, size = {800, 600}}
+  view.picture_visible = false
+  view:frame()
+  local robot = session.world.robots[1]
+  local last = robot.bodies[#robot.bodies]
+  local label = last.name:gsub("^" .. robot.name:gsub("%p", "%%%0") .. "_", "")
+  t.equal(item(view, label, "tree"), nil)
+  view:select(view:address(last))
+  for _ = 1, 3 do view:frame() end
+  local shown = item(view, label, "tree")
+  t.ok(shown, label)
+  t.ok(shown.y > 0 and shown.y + shown.height < 400)
+  -- a click on another entry that is visible does not scroll
+  local base = robot.bodies[#robot.bodies - 1].name:gsub("^" .. robot.name:gsub("%p", "%%%0") .. "_", "")
+  local before = item(view, base, "tree")
+  view:click(before.x + 60, before.y + 8)
+  t.equal(session.selection[1] == robot.bodies[#robot.bodies - 1], true)
+  for _ = 1, 3 do view:frame() end
+  t.equal(item(view, label, "tree").y, shown.y)
+  view:close()
+end)
+
+test("a click on a contact in the picture marks it in the list, and scrolls to it", function(t)
+  local session, view = open()
+  session:run "grasp.autograsp"
+  view:tool "Select"
+  view.sizes.bottom = 190
+  for _ = 1, 2 do view:frame() end
+  local contacts = view.quality.contacts
+  local index = #contacts
+  local x, y = view:project(contacts[index].point)
+  view:click(x, y)
+  t.ok(view.highlighted and (contacts[view.highlighted].point - contacts[index].point):norm() < 0.01)
+  for _ = 1, 3 do view:frame() end
+  local found
+  for _, one in ipairs(view:items()) do found = found or one.label:find(("^%d "):format(view.highlighted)) and one end
+  t.ok(found, "the row of the contact is visible")
+  view:click(800, 100)
+  t.equal(view.highlighted, nil)
+  view:close()
+end)

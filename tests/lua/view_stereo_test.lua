@@ -169,3 +169,23 @@ test("wrong options of stereo are refused in a sentence", function(t)
   view:frame()
   view:close()
 end)
+
+test("in an anaglyph, lines and points over the picture have the depth of what they mark", function(t)
+  local session, view = open(true)
+  view.picture_visible = false
+  view.stereo = {kind = "anaglyph", eye_distance = 0.03}
+  local mug = session.object
+  local center = mug.pose.position
+  view.camera = {eye = center + clench.vec3(0.5, 0, 0), target = center - clench.vec3(0.3, 0, 0), up = clench.vec3(0, 0, 1), field_of_view = 0.6}
+  view.measured = {{body = mug, point = clench.vec3(0, 0, 0)}}
+  view:frame()
+  local shot = view:screenshot {}
+  local left, y = view:project(center, "left")
+  local right = view:project(center, "right")
+  t.ok(left - right > 14, left - right)  -- it is in front of the screen
+  local function at(x) return {shot:pixel(math.floor(x), math.floor(y))} end
+  local red, cyan = at(left), at(right)
+  t.ok(red[1] < 130 and red[2] > 240 and red[3] > 240, table.concat(red, " "))
+  t.ok(cyan[1] > 240 and cyan[2] < 50 and cyan[3] < 150, table.concat(cyan, " "))
+  view:close()
+end)

@@ -64,7 +64,7 @@ function files.confine(server, command, args)
   if name:find "^sensors%.connect_" then failure.raise("refused", "%s: devices are connected by the program of the server only", name) end
   if not names_files(command) then return args end
   if not server.folder then failure.raise("refused", "%s: this server reads and writes no files (it was started without a folder)", name) end
-  if not known[name] then failure.raise("refused", "%s: a client cannot run commands that scripts have added and that name files", name) end
+  if not known[name] then failure.raise("refused", "%s: clients cannot run this command, since it names files", name) end
   if has_own_file(server, name, args) then return args end
   local out = {}
   for key, value in pairs(args) do out[key] = value end

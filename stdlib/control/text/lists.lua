@@ -1,4 +1,5 @@
 --- Lists of bodies and robots in the form of the text protocol: `ALL`, or a count followed by that number of indices, from 0.
+--- A list is not longer than `ALL`, so that a short line cannot request an endless reply.
 local lists = {}
 
 ---@param kind string  "body" or "robot"
@@ -14,8 +15,10 @@ function lists.read(words, kind, all)
   if count > #words - words.at then words.fail("%s: expected %d indices, got %d", words.command, count, #words - words.at) end
   local chosen = {}
   for i = 1, count do
+    if words:has_negative() then words.fail("Cannot find %s %.40s", kind, words:peek()) end
     local index = words:index()
     chosen[i] = all[index + 1] or words.fail("Cannot find %s %d", kind, index)
+    if i > #all then words.fail("%s: expected at most %d indices, got %d", words.command, #all, count) end
   end
   return chosen, {}
 end

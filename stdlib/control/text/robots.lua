@@ -30,6 +30,7 @@ end
 
 -- moveDOFs robot n v1 ... vn s1 ... sn
 function commands.moveDOFs(world, words)
+  if words:has_negative() then words.fail "Robot does not exist." end
   local robot = world.robots[words:index "the index of a robot" + 1] or words.fail "Robot does not exist."
   local count = words:dof_count(robot)
   local values, steps = words:numbers(count, "values"), words:numbers(count, "steps")

@@ -31,6 +31,12 @@ function Words:index(what)
   return number or Words.fail("%s: expected %s below 2^63", self.command, what or "an index")
 end
 
+--- Is the next word a negative whole number? No body or robot has such an index.
+function Words:has_negative()
+  local word = self:peek()
+  return word ~= nil and word:find "^%-%d+$" ~= nil
+end
+
 --- A given number of numbers.
 function Words:numbers(count, what)
   if count > #self - self.at then Words.fail("%s: expected %d numbers (%s), got %d", self.command, count, what, #self - self.at) end

@@ -1,6 +1,7 @@
 --- Commands that author grasps: from a pregrasp in phases to the grasp, a tug test, and names and notes that are stored in files.
 local arguments = require "clench.session.arguments"
 local conditions = require "clench.session.conditions"
+local described = require "clench.described"
 local phases = require "clench.session.phases"
 local raise = require "clench.raise"
 local script = require "clench.session.script"
@@ -15,6 +16,11 @@ local function check(name, args)
     raise(("session: %s: pregrasp: expected {pose = a pose, dofs = a list of numbers}"):format(name))
   end
   phases.check("session: " .. name, args.phases or {})
+end
+
+-- a text that files of grasps can store
+local function check_text(name, text, pattern, what)
+  if text and (not utf8.len(text) or text:find(pattern)) then raise(("session: grasp.author: %s: expected %s, got %s"):format(name, what, described(text))) end
 end
 
 -- pose and DOFs of the hand at the pregrasp, and those of an arm that carries it
@@ -64,7 +70,7 @@ local function tug(hand, object, options)
 end
 
 return {
-  {name = "grasp.close_in_phases", label = "Close in Phases…", menu = "Grasp", enabled = conditions.hand_and_object, parameters = {hand, pregrasp, list},
+  {name = "grasp.close_in_phases", label = "Close in Phases…", menu = "Grasp/Author", section = 4, enabled = conditions.hand_and_object, parameters = {hand, pregrasp, list},
    run = function(session, args)
      check("grasp.close_in_phases", args)
      local robot = arguments.find_robot(session, args.hand)
@@ -82,7 +88,7 @@ return {
      table.move(phases.lines(script.name_of(robot), args.phases or {}), 1, #(args.phases or {}), #lines + 1, lines)
      return table.concat(lines, "\n")
    end},
-  {name = "grasp.tug", label = "Tug Test…", menu = "Grasp", enabled = conditions.hand_and_object, reads = true,
+  {name = "grasp.tug", label = "Tug Test…", menu = "Grasp/Author", section = 4, enabled = conditions.hand_and_object, reads = true,
    parameters = {hand, {name = "force", type = "number", min = 1e-9, max = 1e6, unit = "N", default = 1, text = "force on the object along each axis of the world in turn"},
                  {name = "seconds", type = "number", min = 1e-3, max = 1000, unit = "s", default = 0.5, text = "time in each direction"}},
    run = function(session, args)
@@ -90,18 +96,21 @@ return {
      local job = clench.job(tug, {args = {robot, object, {force = args.force, seconds = args.seconds, mass = object.mass}}, name = "tug test"})
      return session:add_job(job, "grasp.tug")
    end},
-  {name = "grasp.author", label = "Author Grasp…", menu = "Grasp", enabled = conditions.hand_and_object, reads = true,
+  {name = "grasp.author", label = "Author Grasp…", menu = "Grasp/Author", section = 4, enabled = conditions.hand_and_object, reads = true,
    parameters = {hand, {name = "name", type = "string", text = "name of the grasp; an authored one of the same name is replaced"},
                  {name = "notes", type = "string", optional = true, text = "any text"},
                  {name = "confidence", type = "number", min = 0, max = 1, optional = true, text = "of the author in the grasp"}, pregrasp, list,
                  {name = "tug", type = "table", optional = true, text = "result of a tug test: {force = in N, held = number of directions}"}},
    run = function(session, args)
      check("grasp.author", args)
+     check_text("name", args.name, "%c", "UTF-8 without control characters")
+     check_text("name", args.name, "^%s*$", "a name")
+     check_text("notes", args.notes, "%z", "UTF-8 without zero bytes")
      local grasp, grasps = new_grasp(session, args), authored(session)
      grasps[place_of(grasps, args.name)] = grasp
      return grasp
    end},
-  {name = "grasp.forget", label = "Forget Authored Grasp…", menu = "Grasp", reads = true,
+  {name = "grasp.forget", label = "Forget Authored Grasp…", menu = "Grasp/Author", section = 4, reads = true,
    enabled = function(session) return session.authored ~= nil and #session.authored > 0, "no grasp was authored" end,
    parameters = {{name = "name", type = "string", text = "name of an authored grasp"}},
    run = function(session, args)

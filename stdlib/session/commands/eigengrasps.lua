@@ -24,7 +24,7 @@ end
 
 -- a command that gives the hand the eigengrasps of options(robot)
 local function setter(name, label, options)
-  return {name = "grasp." .. name, label = label, menu = "Grasp", enabled = conditions.hand, parameters = {hand},
+  return {name = "grasp." .. name, label = label, menu = "Grasp/EigenGrasps", section = 4, enabled = conditions.hand, parameters = {hand},
           run = function(session, args)
             local robot = arguments.find_robot(session, args.hand)
             robot.eigengrasps = clench.eigengrasps(options(robot))
@@ -38,12 +38,12 @@ end
 return {
   setter("set_origin", "Set Origin of EigenGrasps", about_posture),
   setter("identity_eigengrasps", "Use Identity EigenGrasps", identity),
-  {name = "grasp.load_eigengrasps", label = "Load EigenGrasps…", menu = "Grasp", enabled = conditions.hand, parameters = {path, hand},
+  {name = "grasp.load_eigengrasps", label = "Load EigenGrasps…", menu = "Grasp/EigenGrasps", section = 4, enabled = conditions.hand, parameters = {path, hand},
    run = function(session, args) arguments.find_robot(session, args.hand).eigengrasps = clench.files.eigengrasps(args.path) end,
    script = function(session, args)
      return ("%s.eigengrasps = clench.files.eigengrasps(%q)"):format(script.name_of(arguments.find_robot(session, args.hand)), args.path)
    end},
-  {name = "grasp.save_eigengrasps", label = "Save EigenGrasps…", menu = "Grasp", enabled = conditions.hand, reads = true, parameters = {path, hand},
+  {name = "grasp.save_eigengrasps", label = "Save EigenGrasps…", menu = "Grasp/EigenGrasps", section = 4, enabled = conditions.hand, reads = true, parameters = {path, hand},
    run = function(session, args)
      arguments.find_robot(session, args.hand).eigengrasps:save(args.path)
      return args.path

@@ -21,40 +21,40 @@ local function options_of(args)
 end
 
 -- a command that calls f(grasp, options, weight of the object)
-local function reader(name, label, parameters, f, long)
+local function reader(menu, name, label, parameters, f, long)
   local function run(session, args)
     return f(clench.grasp(arguments.find_robot(session, args.hand), session.object), options_of(args), weight_of(session))
   end
   local function enabled(session) return session.object ~= nil, "no object is current" end
-  return {name = "grasp." .. name, label = label, menu = "Grasp", enabled = enabled, reads = true, long = long, parameters = {hand, table.unpack(parameters)}, run = run}
+  return {name = "grasp." .. name, label = label, menu = menu, section = 3, enabled = enabled, reads = true, long = long, parameters = {hand, table.unpack(parameters)}, run = run}
 end
 
 return {
-  reader("forces", "Grasp Force Optimization…",
+  reader("Grasp", "forces", "Grasp Force Optimization…",
          {load, {name = "objective", type = "string", optional = true, text = "min_sum, min_norm, min_max, max_margin or max_margin_sum"}, max_force, torque_limits},
          function(grasp, options, weight)
            options.load = options.load or weight
            return grasp:contact_forces(options)
          end),
-  reader("stability", "Grasp Stability Analysis…", {load, max_force, torques}, function(grasp, options, weight)
+  reader("Grasp", "stability", "Grasp Stability Analysis…", {load, max_force, torques}, function(grasp, options, weight)
     options.load = options.load or weight
     return grasp:equilibrium(options)
   end),
-  reader("maximum_wrench", "Maximum Wrench…",
+  reader("Grasp/More Analyses", "maximum_wrench", "Maximum Wrench…",
          {{name = "direction", type = "table", optional = true, text = "wrench on the object whose largest multiple is computed [N, N m]; its weight by default"},
           max_force, torque_limits, torques},
          function(grasp, options, weight)
            options.direction = options.direction or weight
            return grasp:max_load(options)
          end),
-  reader("preload", "Optimal Preload…",
+  reader("Grasp/More Analyses", "preload", "Optimal Preload…",
          {{name = "loads", type = "table", optional = true, text = "wrenches that the same torques hold, one at a time [N, N m]; none and the object's weight by default"},
           max_force, {name = "locked", type = "boolean", optional = true, text = "joints do not move under a load, and contacts yield as equal springs"}},
          function(grasp, options, weight)
            options.loads = options.loads or {{0, 0, 0, 0, 0, 0}, weight}
            return grasp:optimal_preload(options)
-         end),
-  reader("resistible_wrenches", "Resistible Wrenches…",
+         end, true),
+  reader("Grasp/More Analyses", "resistible_wrenches", "Resistible Wrenches…",
          {{name = "axes", type = "table", optional = true, text = "two of fx, fy, fz, tx, ty, tz"},
           {name = "count", type = "integer", min = 3, max = 3600, default = 72, text = "directions"}, max_force, torques},
          function(grasp, options) return clench.study.resistible_wrenches(grasp, options) end, true),

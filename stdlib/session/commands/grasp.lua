@@ -18,9 +18,9 @@ local function options_of(parameters, args)
 end
 
 -- a command that calls a method of the hand with a table of options
-local function caller(name, label, method, shortcut, parameters)
+local function caller(name, label, method, shortcut, parameters, menu)
   return {
-    name = "grasp." .. name, label = label, menu = "Grasp", shortcut = shortcut, enabled = conditions.hand, parameters = {hand, table.unpack(parameters)},
+    name = "grasp." .. name, label = label, menu = menu or "Grasp", section = menu and 4 or 1, shortcut = shortcut, enabled = conditions.hand, parameters = {hand, table.unpack(parameters)},
     run = function(session, args)
       local robot = arguments.find_robot(session, args.hand)
       return robot[method](robot, options_of(parameters, args))
@@ -30,9 +30,9 @@ local function caller(name, label, method, shortcut, parameters)
 end
 
 -- a command that calls a method of the hand with a list of numbers and a table of options
-local function setter(name, label, method, values, parameters)
+local function setter(menu, name, label, method, values, parameters)
   return {
-    name = "grasp." .. name, label = label, menu = "Grasp", enabled = conditions.hand, parameters = {hand, values, table.unpack(parameters)},
+    name = "grasp." .. name, label = label, menu = menu, section = 4, enabled = conditions.hand, parameters = {hand, values, table.unpack(parameters)},
     run = function(session, args)
       local robot = arguments.find_robot(session, args.hand)
       return robot[method](robot, args[values.name], options_of(parameters, args))
@@ -71,7 +71,7 @@ return {
   caller("autograsp", "Auto Grasp", "autograsp", "ctrl+g", {{name = "speed", type = "number", min = 1e-6, optional = true, text = "1: the default speeds of the hand"}}),
   caller("open", "Auto Open", "open", nil, {}),
   caller("approach", "Approach", "approach_object", nil, {reach}),
-  {name = "grasp.approach_and_grasp", label = "Approach and Grasp", menu = "Grasp", shortcut = "g", enabled = conditions.hand,
+  {name = "grasp.approach_and_grasp", label = "Approach and Grasp", menu = "Grasp", section = 1, shortcut = "g", enabled = conditions.hand,
    parameters = {hand, {name = "reach", type = "number", min = 0, unit = "m", default = 0.03, text = "maximum distance"}},
    run = function(session, args)
      local robot = arguments.find_robot(session, args.hand)
@@ -82,22 +82,22 @@ return {
      local robot = arguments.find_robot(session, args.hand)
      return call_of("approach_object", robot, {reach = args.reach}) .. "\n" .. call_of("autograsp", robot)
    end},
-  setter("dofs", "Set DOFs…", "set_dofs", {name = "dofs", type = "table", text = "values of all DOFs, or of some by name [rad or m]"}, {}),
-  setter("move_dofs", "Move DOFs…", "move_dofs", {name = "dofs", type = "table", text = "values of all DOFs, or of some by name [rad or m]"},
+  setter("Grasp/Posture", "dofs", "Set DOFs…", "set_dofs", {name = "dofs", type = "table", text = "values of all DOFs, or of some by name [rad or m]"}, {}),
+  setter("Grasp/Posture", "move_dofs", "Move DOFs…", "move_dofs", {name = "dofs", type = "table", text = "values of all DOFs, or of some by name [rad or m]"},
          {{name = "stop_at_contact", type = "boolean", optional = true, text = "true: ends at the first contact of any link"}}),
-  setter("amplitudes", "EigenGrasp Interface…", "set_amplitudes", {name = "amplitudes", type = "table", text = "one per eigengrasp"},
+  setter("Grasp/EigenGrasps", "amplitudes", "EigenGrasp Interface…", "set_amplitudes", {name = "amplitudes", type = "table", text = "one per eigengrasp"},
          {{name = "keep", type = "boolean", optional = true, text = "true: keeps the part of the posture that no eigengrasp describes"},
           {name = "fixed", type = "table", optional = true, text = "numbers of the amplitudes that keep their values"}}),
   caller("virtual_contacts", "Virtual Contacts…", "find_virtual_contacts", nil,
          {{name = "count_per_link", type = "integer", min = 1, max = 100, optional = true, text = "number of contacts on each link"},
           {name = "palm", type = "boolean", optional = true, text = "true: also on the palm"},
-          {name = "object_material", type = "string", optional = true, text = "material to be grasped"}}),
-  {name = "grasp.save_posture", label = "Save Posture", menu = "Grasp", shortcut = "s", enabled = conditions.hand, reads = true, parameters = {hand},
+          {name = "object_material", type = "string", optional = true, text = "material to be grasped"}}, "Grasp/Virtual Contacts"),
+  {name = "grasp.save_posture", label = "Save Posture", menu = "Grasp/Posture", section = 4, shortcut = "s", enabled = conditions.hand, reads = true, parameters = {hand},
    run = function(session, args)
      local robot = arguments.find_robot(session, args.hand)
      session.postures[robot.name] = {pose = robot.pose, dofs = robot.dofs}
    end},
-  {name = "grasp.restore_posture", label = "Restore Posture", menu = "Grasp", shortcut = "r", enabled = conditions.hand, parameters = {hand},
+  {name = "grasp.restore_posture", label = "Restore Posture", menu = "Grasp/Posture", section = 4, shortcut = "r", enabled = conditions.hand, parameters = {hand},
    run = function(session, args)
      local robot, saved = posture_of(session, args)
      if robot.parent then robot:set_dofs(saved.dofs) else robot:set_posture(saved.pose, saved.dofs) end
@@ -108,7 +108,7 @@ return {
      return ("%s:set_posture(%s, %s)"):format(script.name_of(robot), script.literal(saved.pose), script.literal(saved.dofs))
    end},
   -- logged as calls, which read the hand's file again
-  {name = "grasp.clone_hand", label = "Clone Hand", menu = "Grasp", shortcut = "c", enabled = conditions.hand, parameters = {hand},
+  {name = "grasp.clone_hand", label = "Clone Hand", menu = "Grasp/Posture", section = 4, shortcut = "c", enabled = conditions.hand, parameters = {hand},
    run = function(session, args)
      local robot, world = arguments.find_robot(session, args.hand), session.world
      local copy = world:add_robot(robot.source, {pose = robot.pose, name = free_name(world, robot.name)})
@@ -123,7 +123,7 @@ return {
        robot.source, script.literal(robot.pose), name, script.name_of(robot), name, name, script.literal(robot.dofs))
    end},
   -- logged as the resulting state, since the grasps of a planner may depend on the clock
-  {name = "grasp.apply", label = "Apply Grasp…", menu = "Grasp", enabled = conditions.hand_and_object,
+  {name = "grasp.apply", label = "Apply Grasp…", menu = "Grasp/Grasp Lists", section = 4, enabled = conditions.hand_and_object,
    parameters = {{name = "grasp", type = "any", optional = true, text = "a grasp; by default one of a planner's job"},
                  {name = "job", type = "integer", min = 1, optional = true, text = "number of the job in session.jobs; the last one by default"},
                  {name = "rank", type = "integer", min = 1, default = 1, text = "rank of the job's grasp, 1 for the best"}},

@@ -12,7 +12,7 @@ local function list_of(session, args)
 end
 
 return {
-  {name = "grasp.load_grasps", label = "Load Grasps…", menu = "Grasp", enabled = conditions.world, reads = true,
+  {name = "grasp.load_grasps", label = "Load Grasps…", menu = "Grasp/Grasp Lists", section = 4, enabled = conditions.world, reads = true,
    parameters = {{name = "path", type = "string", text = "a list of grasps: .jsonl, .csv, .npz, .yaml (isaac_grasp) or .json"},
                  {name = "options", type = "table", optional = true, text = "options of clench.grasps"}},
    run = function(session, args)
@@ -20,7 +20,7 @@ return {
      session.lists[#session.lists + 1] = {name = args.path, grasps = grasps}
      return grasps
    end},
-  {name = "grasp.save_grasps", label = "Save Grasps…", menu = "Grasp", enabled = conditions.world, reads = true,
+  {name = "grasp.save_grasps", label = "Save Grasps…", menu = "Grasp/Grasp Lists", section = 4, enabled = conditions.world, reads = true,
    parameters = {{name = "path", type = "string", text = "file to write; its ending selects the format"},
                  {name = "job", type = "integer", min = 1, optional = true, text = "number of a planner's job in session.jobs; the last one by default"},
                  {name = "grasps", type = "any", optional = true, text = "a list of grasps instead of those of a job"},

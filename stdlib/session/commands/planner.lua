@@ -3,9 +3,10 @@ local arguments = require "clench.session.arguments"
 local conditions = require "clench.session.conditions"
 local descriptions = require "clench.signature.descriptions"
 
+local more = "Grasp/More Planners"
 local planners = {
-  {"primitive", "Planner…"}, {"sample", "Sampling Planner…"}, {"antipodal", "Antipodal Planner…"}, {"random", "Random Planner…"},
-  {"anneal", "EigenGrasp Planner…"}, {"loop", "EigenGrasp Planner, Loop…"}, {"guided", "EigenGrasp Planner, Guided…"},
+  {"primitive", "Planner…", "Grasp"}, {"anneal", "EigenGrasp Planner…", "Grasp"}, {"sample", "Sampling Planner…", more}, {"antipodal", "Antipodal Planner…", more},
+  {"random", "Random Planner…", more}, {"loop", "EigenGrasp Planner, Loop…", more}, {"guided", "EigenGrasp Planner, Guided…", more},
 }
 local plain = {number = true, integer = true, string = true, boolean = true, table = true, vec3 = true, pose = true}
 local from_session = {hand = true, object = true, world = true}
@@ -45,9 +46,9 @@ local function with_parameters_of(planner, command)
   end})
 end
 
-local function command_of(planner, label)
+local function command_of(planner, label, menu)
   return with_parameters_of(planner, {
-    name = "planner." .. planner, label = label, menu = "Grasp", enabled = conditions.hand_and_object, reads = true,
+    name = "planner." .. planner, label = label, menu = menu, section = 2, enabled = conditions.hand_and_object, reads = true,
     run = function(session, args)
       local options = {}
       for name, value in pairs(args) do options[name] = value end
@@ -70,6 +71,6 @@ local function of_job(verb, label)
 end
 
 local commands = {}
-for i, planner in ipairs(planners) do commands[i] = command_of(planner[1], planner[2]) end
+for i, planner in ipairs(planners) do commands[i] = command_of(table.unpack(planner)) end
 for _, verb in ipairs {{"stop", "Stop"}, {"pause", "Pause"}, {"resume", "Resume"}} do commands[#commands + 1] = of_job(verb[1], verb[2]) end
 return commands

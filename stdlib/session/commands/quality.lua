@@ -7,16 +7,16 @@ local function has_object(session) return session.object ~= nil, "no object is c
 
 local function grasp_of(session, args) return clench.grasp(arguments.find_robot(session, args.hand), session.object) end
 
-local function reader(name, label, parameters, run, long)
-  return {name = "grasp." .. name, label = label, menu = "Grasp", enabled = has_object, reads = true, long = long, parameters = {hand, table.unpack(parameters)}, run = run}
+local function reader(menu, name, label, parameters, run, long)
+  return {name = "grasp." .. name, label = label, menu = menu, section = 3, enabled = has_object, reads = true, long = long, parameters = {hand, table.unpack(parameters)}, run = run}
 end
 
 return {
-  reader("quality", "Quality…", {{name = "measure", type = "string", default = "epsilon", text = "name of a measure"}},
+  reader("Grasp/More Analyses", "quality", "Quality…", {{name = "measure", type = "string", default = "epsilon", text = "name of a measure"}},
          function(session, args) return grasp_of(session, args):quality(args.measure) end),
-  reader("measures", "Quality Measures…", {}, function(session, args) return grasp_of(session, args):quality_all() end, true),
-  reader("contacts", "Contacts", {}, function(session, args) return session.world:contacts(arguments.find_robot(session, args.hand), session.object) end),
-  reader("projection", "Create GWS Projection…",
+  reader("Grasp", "measures", "Quality Measures…", {}, function(session, args) return grasp_of(session, args):quality_all() end, true),
+  reader("Grasp/More Analyses", "contacts", "Contacts", {}, function(session, args) return session.world:contacts(arguments.find_robot(session, args.hand), session.object) end),
+  reader("Grasp", "projection", "Create GWS Projection…",
          {{name = "fixed", type = "table", optional = true, text = "values of the coordinates that are fixed, three of fx, fy, fz, tx, ty and tz"},
           {name = "norm", type = "string", optional = true, text = "L1 or Linf"}},
          function(session, args) return grasp_of(session, args):wrench_space {norm = args.norm}:project {fixed = args.fixed or {tx = 0, ty = 0, tz = 0}} end),

@@ -15,13 +15,13 @@ return {
      session.selection = arguments.find_all(session, "addresses", args.addresses)
      chosen(session)
    end},
-  {name = "grasp.select_hand", label = "Select Hand…", menu = "Grasp", enabled = conditions.world, reads = true,
+  {name = "grasp.select_hand", label = "Select Hand…", menu = "Grasp", section = 5, enabled = conditions.world, reads = true,
    parameters = {{name = "hand", type = "robot", text = "address of the robot that becomes the current hand"}},
    run = function(session, args)
      session.hand = arguments.find_robot(session, args.hand)
      return chosen(session, session.hand)
    end},
-  {name = "grasp.select_object", label = "Select Object…", menu = "Grasp", enabled = conditions.world, reads = true,
+  {name = "grasp.select_object", label = "Select Object…", menu = "Grasp", section = 5, enabled = conditions.world, reads = true,
    parameters = {{name = "object", type = "body", text = "address of the object to be grasped"}},
    run = function(session, args)
      local object = arguments.find(session, args.object)

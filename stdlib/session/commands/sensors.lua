@@ -19,13 +19,13 @@ local function hand_and(condition)
 end
 
 -- a command that does not change the world
-local function setting(name, label, enabled, parameters, run)
-  return {name = "sensors." .. name, label = label, menu = "Sensors", reads = true, enabled = enabled, parameters = parameters, run = run}
+local function setting(menu, section, name, label, enabled, parameters, run)
+  return {name = "sensors." .. name, label = label, menu = menu, section = section, reads = true, enabled = enabled, parameters = parameters, run = run}
 end
 
 -- a command that moves the current hand
-local function edit(name, label, enabled, run)
-  return {name = "sensors." .. name, label = label, menu = "Sensors", enabled = enabled, run = run}
+local function edit(section, name, label, enabled, run)
+  return {name = "sensors." .. name, label = label, menu = "Sensors", section = section, enabled = enabled, run = run}
 end
 
 -- more: parameters of this device
@@ -33,7 +33,7 @@ local function connection(kind, label, text, more)
   local parameters = {{name = "path", type = "string", text = text, hint = serial_lines.hint}}
   for _, parameter in ipairs(more) do parameters[#parameters + 1] = parameter end
   parameters[#parameters + 1] = {name = "baud", type = "integer", min = 1, max = 10000000, unit = "bit/s", optional = true, text = "that of the device by default"}
-  return setting("connect_" .. kind, label, nil, parameters, function(session, args) sensors.connect(session, kind, args.path, args) end)
+  return setting("Sensors", 1, "connect_" .. kind, label, nil, parameters, function(session, args) sensors.connect(session, kind, args.path, args) end)
 end
 
 local bird_count = {name = "birds", type = "integer", min = 1, max = 3, default = 1, text = "number of sensors of the tracker"}
@@ -67,38 +67,38 @@ return {
   connection("glove", "Connect Glove…", "serial line of a CyberGlove", {}),
   connection("tracker", "Connect Tracker…", "serial line of a Flock of Birds", {bird_count}),
   connection("hand", "Connect Real Hand…", "serial line of a hand, which is initialized: fingers of Barrett hands and grippers move", hand_parameters),
-  setting("disconnect", "Disconnect…", nil, {{name = "device", type = "string", choices = {"glove", "tracker", "hand"}, text = "a real hand is stopped"}},
+  setting("Sensors", 1, "disconnect", "Disconnect…", nil, {{name = "device", type = "string", choices = {"glove", "tracker", "hand"}, text = "a real hand is stopped"}},
           function(session, args) sensors.disconnect(session, args.device) end),
-  edit("apply", "Move Hand to Readings", sensed.can_apply, sensed.apply),
-  setting("follow", "Follow/Stop Following", sensed.can_apply, nil, follow),
-  setting("tracker_mode", "Tracker Mode…", tracker,
+  edit(3, "apply", "Move Hand to Readings", sensed.can_apply, sensed.apply),
+  setting("Sensors", 3, "follow", "Follow/Stop Following", sensed.can_apply, nil, follow),
+  setting("Sensors", 3, "tracker_mode", "Tracker Mode…", tracker,
           {{name = "mode", type = "string", choices = {"absolute", "relative", "camera"}, default = "absolute",
             text = "relative: the target moves from where it is now as the sensor moves; camera: relative to the camera, which another bird moves"},
            {name = "bird", type = "integer", min = 1, max = 3, default = 1, text = "number of the sensor"},
            {name = "target", type = "string", default = "hand", text = "what the bird moves: hand (the current one), camera, none, or the name of a body or robot"}},
           choose_bird),
-  setting("record_posture", "Record Posture…", hand_and(glove),
+  setting("Sensors/Glove Calibration", 2, "record_posture", "Record Posture…", hand_and(glove),
           {{name = "dofs", type = "table", optional = true, text = "of the hand that wears the glove; those of the current hand by default [rad]"},
            {name = "distance", type = "number", min = 0, max = 1, unit = "m", optional = true, text = "of two fingertips, instead of dofs; 0: they touch"}}, gloves.record),
-  setting("clear_postures", "Clear Postures", gloves.has_any, nil, function(session) session.sensors.postures = {} end),
-  setting("load_postures", "Load Postures…", nil, {posture_file}, function(session, args) return gloves.load_postures(session, args.path) end),
-  setting("save_postures", "Save Postures…", gloves.has_any, {posture_file}, function(session, args)
+  setting("Sensors/Glove Calibration", 2, "clear_postures", "Clear Postures", gloves.has_any, nil, function(session) session.sensors.postures = {} end),
+  setting("Sensors/Glove Calibration", 2, "load_postures", "Load Postures…", nil, {posture_file}, function(session, args) return gloves.load_postures(session, args.path) end),
+  setting("Sensors/Glove Calibration", 2, "save_postures", "Save Postures…", gloves.has_any, {posture_file}, function(session, args)
     clench.devices.save_postures(args.path, session.sensors.postures)
     return args.path
   end),
-  setting("calibrate", "Calibrate Glove…", gloves.has_postures,
+  setting("Sensors/Glove Calibration", 2, "calibrate", "Calibrate Glove…", gloves.has_postures,
           {{name = "sensors_of", type = "table", text = "lists of sensors by the numbers of DOFs, {{5}, {6}}"}}, gloves.calibrate),
-  setting("calibrate_tips", "Calibrate Fingertips…", gloves.has_tips,
+  setting("Sensors/Glove Calibration", 2, "calibrate_tips", "Calibrate Fingertips…", gloves.has_tips,
           {{name = "tips", type = "table", text = "names of the two links that have the fingertips, {'thumb', 'index'}"},
            {name = "refine", type = "table", text = "DOFs whose coefficients are fitted, those of the thumb: {17, 18, 19, 20}"},
            {name = "shell", type = "number", min = 0, max = 0.1, default = 0.008, unit = "m", text = "separation of the points of two tips that touch"}}, gloves.calibrate_tips),
-  setting("load_calibration", "Load Calibration…", nil,
+  setting("Sensors/Glove Calibration", 2, "load_calibration", "Load Calibration…", nil,
           {file, {name = "dofs", type = "table", optional = true, text = "rows of the calibration by the numbers of DOFs, {[2] = 1}"}}, load_calibration),
-  setting("save_calibration", "Save Calibration…", has_calibration, {file}, save_calibration),
-  edit("pull", "Simulated Hand to Real One", hand_and(real_hand), sensed.pull),
-  setting("push", "Real Hand to Simulated One…", hand_and(real_hand),
+  setting("Sensors/Glove Calibration", 2, "save_calibration", "Save Calibration…", has_calibration, {file}, save_calibration),
+  edit(4, "pull", "Simulated Hand to Real One", hand_and(real_hand), sensed.pull),
+  setting("Sensors", 4, "push", "Real Hand to Simulated One…", hand_and(real_hand),
           {{name = "max_speed", type = "number", min = 1e-3, max = 10, default = 1, unit = "rad/s", text = "of each joint"},
            {name = "continuous", type = "boolean", default = false, text = "true: it follows until it is stopped; a drag once it has ended"}},
           function(session, args) sensed.push(session, args.max_speed, args.continuous) end),
-  setting("stop", "Stop Real Hand", real_hand, nil, sensed.stop),
+  setting("Sensors", 4, "stop", "Stop Real Hand", real_hand, nil, sensed.stop),
 }

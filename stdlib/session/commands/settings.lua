@@ -5,7 +5,7 @@ local script = require "clench.session.script"
 local fields = {"time_step", "gravity", "contact_threshold"}
 
 return {
-  {name = "world.friction", label = "Friction…", menu = "File", enabled = conditions.world,
+  {name = "world.friction", label = "Friction…", menu = "File", section = 4, enabled = conditions.world,
    parameters = {{name = "a", type = "string", text = "a material"}, {name = "b", type = "string", text = "the other material"},
                  {name = "mu", type = "number", min = 0, max = 1000, text = "coefficient, static and kinetic unless `kinetic` is given"},
                  {name = "kinetic", type = "number", min = 0, max = 1000, optional = true, text = "kinetic coefficient"}},
@@ -13,7 +13,7 @@ return {
    script = function(_, args)
      return ("world:set_friction(%q, %q, %s)"):format(args.a, args.b, script.literal {static = args.mu, kinetic = args.kinetic or args.mu})
    end},
-  {name = "world.settings", label = "Edit Settings…", menu = "File", enabled = conditions.world,
+  {name = "world.settings", label = "Edit Settings…", menu = "File", section = 4, enabled = conditions.world,
    parameters = {{name = "time_step", type = "number", unit = "s", min = 1e-7, max = 1, optional = true, text = "length of a step"},
                  {name = "gravity", type = "vec3", optional = true, text = "acceleration of free fall [m/s^2]"},
                  {name = "contact_threshold", type = "number", unit = "m", min = 0, optional = true, text = "surfaces closer than this touch"}},

@@ -10,7 +10,7 @@ local path = {name = "path", type = "string", text = "a file, .vgr or .xml"}
 local function name_of(session, args) return script.name_of(arguments.find_robot(session, args.hand)) end
 
 return {
-  {name = "grasp.find_virtual", label = "Find Virtual Contacts", menu = "Grasp", enabled = conditions.hand,
+  {name = "grasp.find_virtual", label = "Find Virtual Contacts", menu = "Grasp/Virtual Contacts", section = 4, enabled = conditions.hand,
    parameters = {hand, {name = "count_per_link", type = "integer", min = 1, max = 100, default = 1, text = "number of contacts on each link"}},
    run = function(session, args)
      local robot = arguments.find_robot(session, args.hand)
@@ -20,7 +20,7 @@ return {
      local name = name_of(session, args)
      return ("%s.virtual_contacts = %s:find_virtual_contacts {count_per_link = %d}"):format(name, name, args.count_per_link)
    end},
-  {name = "grasp.mark_virtual", label = "Mark Contacts", menu = "Grasp", enabled = conditions.hand_and_object, parameters = {hand},
+  {name = "grasp.mark_virtual", label = "Mark Contacts", menu = "Grasp/Virtual Contacts", section = 4, enabled = conditions.hand_and_object, parameters = {hand},
    run = function(session, args)
      local robot = arguments.find_robot(session, args.hand)
      local contacts = session.world:contacts(robot, session.object)
@@ -31,13 +31,13 @@ return {
      local name = name_of(session, args)
      return ("for _, contact in ipairs(world:contacts(%s, %s)) do %s:add_virtual_contact(contact) end"):format(name, script.name_of(session.object), name)
    end},
-  {name = "grasp.clear_virtual", label = "Clear Virtual Contacts", menu = "Grasp", enabled = conditions.hand, parameters = {hand},
+  {name = "grasp.clear_virtual", label = "Clear Virtual Contacts", menu = "Grasp/Virtual Contacts", section = 4, enabled = conditions.hand, parameters = {hand},
    run = function(session, args) arguments.find_robot(session, args.hand).virtual_contacts = {} end,
    script = function(session, args) return name_of(session, args) .. ".virtual_contacts = {}" end},
-  {name = "grasp.load_virtual", label = "Load Virtual Contacts…", menu = "Grasp", enabled = conditions.hand, parameters = {path, hand},
+  {name = "grasp.load_virtual", label = "Load Virtual Contacts…", menu = "Grasp/Virtual Contacts", section = 4, enabled = conditions.hand, parameters = {path, hand},
    run = function(session, args) arguments.find_robot(session, args.hand).virtual_contacts = clench.files.virtual_contacts(args.path) end,
    script = function(session, args) return ("%s.virtual_contacts = clench.files.virtual_contacts(%q)"):format(name_of(session, args), args.path) end},
-  {name = "grasp.save_virtual", label = "Save Virtual Contacts…", menu = "Grasp", enabled = conditions.hand, reads = true, parameters = {path, hand},
+  {name = "grasp.save_virtual", label = "Save Virtual Contacts…", menu = "Grasp/Virtual Contacts", section = 4, enabled = conditions.hand, reads = true, parameters = {path, hand},
    run = function(session, args)
      arguments.find_robot(session, args.hand):save_virtual_contacts(args.path)
      return args.path

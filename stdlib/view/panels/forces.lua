@@ -34,13 +34,13 @@ local function draw_load(view, ui, state)
   if not state.wrench then return end
   for i, name in ipairs(coordinates) do
     if i % 3 ~= 1 then ui:same_line(6) end
-    ui:width(52)
+    ui:width(52 * view.scale)
     number(view, ui, name, state.wrench, i, {speed = i <= 3 and 0.05 or 0.005, format = "%.3g"})
   end
 end
 
 local function draw_limits(view, ui, state)
-  ui:width(120)
+  ui:width(120 * view.scale)
   number(view, ui, "max. force [N]", state, "max_force", {speed = 0.1, min = 0, max = 1e5, format = "%.3g"})
   ui:tooltip "Largest normal force of each contact; 0: no limit."
   state.torque_limits = ui:checkbox("torques of the motors", state.torque_limits == true)
@@ -57,7 +57,7 @@ local function draw_torques(view, ui, state)
     for i = 1, on and #hand.dofs or 0 do state.torques[i] = 0 end
   end
   for i, name in ipairs(state.torques and hand.dof_names or {}) do
-    ui:width(120)
+    ui:width(120 * view.scale)
     number(view, ui, ("%s##torque%d"):format(name, i), state.torques, i, {speed = 0.01, format = "%.4g"})
   end
 end
@@ -98,7 +98,7 @@ local function draw_questions(view, ui, state)
   end
   ui:tooltip "The smallest torques that hold the object without a load, and under the load times the factor on the right, without being adjusted"
   ui:same_line()
-  ui:width(46)
+  ui:width(46 * view.scale)
   number(view, ui, "x load", state, "factor", {speed = 0.05, min = 0.01, max = 1000, format = "%.3g"})
   state.locked = ui:checkbox("locked joints", state.locked == true)
   ui:tooltip "The preload presses first; then the joints do not move, as with worm gears, and the contacts yield as equal springs. Otherwise the torques stay constant."

@@ -16,40 +16,61 @@ local function sources_of(session)
   return sources
 end
 
--- pictures of a list, drawn one per frame, so that no frame takes long
-local function pictures_of(view, source)
-  local key = ("%s %d"):format(source.name, #source.grasps)
-  local state = view.gallery
-  if not state or state.key ~= key then state = {key = key, pictures = {}, uploaded = {}} end
-  view.gallery = state
-  local number = #state.pictures + 1
-  if number > math.min(#source.grasps, most) then return state end
-  local copy = view.session.world:clone()
+-- identifies the picture of a grasp: hand, object, pose and DOFs
+local function key_of(grasp)
+  local p, q, dofs = grasp.pose.position, grasp.pose.quat, grasp.dofs
+  return ("%s\0%s\0"):format(grasp.hand_name, grasp.object_name) .. string.pack(("d"):rep(7 + #dofs), p.x, p.y, p.z, q[1], q[2], q[3], q[4], table.unpack(dofs))
+end
+
+local function new_picture(view, grasp)
+  local copy, picture = view.session.world:clone(), nil
   local ok, problem = pcall(function()
-    source.grasps[number]:apply(copy)
-    state.pictures[number] = clench.render(copy, {size = {width * 2, height * 2}, quality = "draft", transparent_objects = true})
+    grasp:apply(copy)
+    picture = clench.render(copy, {size = {width * 2, height * 2}, quality = "draft", transparent_objects = true})
   end)
-  if not ok then state.pictures[number] = {problem = tostring(problem)} end
-  view.needs_frame = true
-  return state
+  return ok and picture or {problem = tostring(problem)}
+end
+
+-- Pictures of the first grasps of a list; false for one that is not made yet. One is made per frame, so that no frame takes long, and kept while the list grows
+-- or changes its order.
+local function pictures_of(view, source)
+  view.gallery = view.gallery or {by_key = {}, uploaded = {}}
+  local kept, list, has_new = view.gallery.by_key, {}, false
+  for i = 1, math.min(#source.grasps, most) do
+    local key = key_of(source.grasps[i])
+    if not kept[key] and not has_new then
+      has_new, kept[key] = true, new_picture(view, source.grasps[i])
+      view.needs_frame = true
+    end
+    list[i] = kept[key] or false
+  end
+  return list
 end
 
 local function apply(view, source, number)
   view:run("grasp.apply", source.job and {job = source.job, rank = number} or {grasp = source.grasps[number]})
 end
 
-local function draw_grasp(view, ui, source, state, number)
-  local picture, grasp = state.pictures[number], source.grasps[number]
-  local label = ("grasp %d"):format(number)
-  if type(picture) == "table" then
-    if ui:button(("cannot be\nput here##%s"):format(label), {width = width, height = height}) then view:fail(picture.problem) end
+local function draw_picture(view, ui, source, picture, number, label)
+  local size = {width = width * view.scale, height = height * view.scale}
+  if not picture then
+    ui:disabled(true, function(ui) ui:button("…##" .. label, size) end)
+  elseif type(picture) == "table" then
+    if ui:button(("cannot be\nput here##%s"):format(label), size) then view:fail(picture.problem) end
     ui:tooltip(picture.problem)
   else
-    local is_new = state.uploaded[number] ~= picture
-    state.uploaded[number] = picture
-    if ui:image(label, picture, {width = width, height = height, changed = is_new}) then apply(view, source, number) end
+    local uploaded = view.gallery.uploaded
+    size.changed = uploaded[number] ~= picture
+    uploaded[number] = picture
+    if ui:image(label, picture, size) then apply(view, source, number) end
     ui:tooltip "Moves the hand to this grasp."
   end
+end
+
+local function draw_grasp(view, ui, source, picture, number)
+  local grasp = source.grasps[number]
+  local label = ("grasp %d"):format(number)
+  draw_picture(view, ui, source, picture, number, label)
   local name = ("%s of %s"):format(label, source.name)
   local epsilon = grasp.epsilon
   local _, changed = ui:checkbox(epsilon and ("%d: %.4f"):format(number, epsilon) or tostring(number), compare.has(view, name))
@@ -60,7 +81,7 @@ end
 local function draw_sources(view, ui, sources, index)
   local names = {}
   for i, source in ipairs(sources) do names[i] = source.name end
-  ui:width(260)
+  ui:width(260 * view.scale)
   local chosen, changed = ui:combo("##gallery source", index, names)
   if changed then view.gallery_source = names[chosen] end
   ui:same_line()
@@ -93,14 +114,14 @@ local function draw(ui, view)
   if not source then return ui:text("Grasps of planners and of files are shown here.", {color = gray}) end
   ui:same_line()
   ui:text(("%d grasps%s"):format(#source.grasps, #source.grasps > most and (", the first %d are shown"):format(most) or ""), {color = gray})
-  local state = pictures_of(view, source)
+  local pictures = pictures_of(view, source)
   ui:child("grasps", {height = 0}, function(ui)
-    local columns = math.max(1, math.floor((ui:available()) / (width + 8)))
-    for i = 1, #state.pictures do
+    local columns = math.max(1, math.floor((ui:available()) / (width * view.scale + 8)))
+    for i, picture in ipairs(pictures) do
       ui:id("grasp" .. i, function(ui)
-        ui:group(function(ui) draw_grasp(view, ui, source, state, i) end)
+        ui:group(function(ui) draw_grasp(view, ui, source, picture, i) end)
       end)
-      if i % columns ~= 0 and i < #state.pictures then ui:same_line() end
+      if i % columns ~= 0 and i < #pictures then ui:same_line() end
     end
   end)
 end

@@ -1,4 +1,5 @@
 --- The selection: pose, DOFs and body properties, in the units of the user. A number is dragged to change it, or typed after a double click.
+local facts = require "clench.view.world_facts"
 local properties = require "clench.view.properties"
 local units = require "clench.view.units"
 
@@ -12,8 +13,8 @@ local function draw_pose(ui, view, thing)
   local changed, finished = false, false
   for i, axis in ipairs {"x", "y", "z", "roll", "pitch", "yaw"} do
     local factor, name, format = units.of(view, i <= 3 and "m" or "rad")
-    ui:width(-90)
-    local value, is_changed, is_finished = ui:drag(("%s [%s]"):format(axis, name), values[i] * factor, {speed = factor * (i <= 3 and 1e-3 or 5e-3), format = format})
+    ui:width(-90 * view.scale)
+    local value, is_changed, is_finished = ui:drag(("%s [%s]"):format(axis, name), units.field(values[i] * factor, format), {speed = factor * (i <= 3 and 1e-3 or 5e-3), format = format})
     if is_changed then values[i], changed = value / factor, true end
     finished = finished or is_finished
   end
@@ -39,7 +40,7 @@ local function draw_dofs(ui, view, robot)
   local dofs, limits, names = robot.dofs, robot.dof_limits, robot.dof_names
   for i = 1, #dofs do
     local factor, _, format = units.of(view, unit_of(robot, i))
-    ui:width(-90)
+    ui:width(-90 * view.scale)
     local value, changed, finished = ui:slider(names[i] .. "##dof" .. i, dofs[i] * factor,
                                                {min = limits[i][1] * factor, max = limits[i][2] * factor, format = format})
     if changed then
@@ -69,9 +70,7 @@ end
 
 local function draw(ui, view)
   local selection = view.session.selection
-  if #selection == 0 then
-    return ui:text("Nothing is selected: click in the tree, or in the picture with the tool Select.", {color = {0.5, 0.5, 0.5}, wrap = true})
-  end
+  if #selection == 0 then return facts.draw(view, ui) end
   if #selection == 1 then
     draw_one(ui, view, selection[1])
   else

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <optional>
+
 #include "clench/script/bind/view/ui_frame.h"
 #include "clench/script/lua/entry.h"
 #include "clench/script/lua/getter.h"
@@ -79,13 +82,26 @@ int ui_clip(lua_State* L) {
   return gui.clip(rect, BodyOf(L, 6)), 0;
 }
 
+int ui_channels(lua_State* L) {
+  Gui& gui = framed_gui(L);
+  const std::string channels = check_string(L, 2, "channels");
+  if (channels != "all" && channels != "red" && channels != "cyan")
+    fail("{}: channels: expected 'all', 'red' or 'cyan', got '{}'", subject(L), channels);
+  const bool red = channels != "cyan", cyan = channels != "red";
+  return gui.channels({red, cyan, cyan}, BodyOf(L, 3)), 0;
+}
+
 int ui_tabs(lua_State* L) {
   Gui& gui = framed_gui(L);
   const std::string name = check_string(L, 2, "id");
   const std::vector<std::string> names = check_names(L, 3, "names");
   const BodyOf checked(L, 4);
   (void)checked;
-  gui.tabs(name, names, [&](size_t i) {
+  const std::string chosen = lua_isnoneornil(L, 5) ? "" : check_string(L, 5, "chosen");
+  const auto found = std::find(names.begin(), names.end(), chosen);
+  std::optional<size_t> index;
+  if (found != names.end()) index = static_cast<size_t>(found - names.begin());
+  gui.tabs(name, names, index, [&](size_t i) {
     lua_pushvalue(L, 4);
     lua_pushvalue(L, 1);
     lua_pushstring(L, names[i].c_str());
@@ -102,6 +118,7 @@ int ui_tree(lua_State* L) {
   tree.open = options.boolean("open", false);
   tree.leaf = options.boolean("leaf", false);
   tree.selected = options.boolean("selected", false);
+  tree.unfold = options.boolean("unfold", false);
   options.done();
   const int clicked =
       lua_isnoneornil(L, 4) ? gui.tree(label, tree, [] {}) : gui.tree(label, tree, BodyOf(L, 4));
@@ -238,6 +255,13 @@ Restricts lines, circles and labels over the picture to a rectangle.
 @effect edits
 > ui:frame(0.01, function(ui) ui:clip(0, 0, 10, 10, function(ui) ui:circle(10, 10, 5) end) end)
 > ui:clip(0, 0, 9, 9, print)  --> error: expected a call within ui:frame)"},
+    {"channels", guarded<ui_channels>, R"(
+Restricts lines, circles and labels over the picture to some of its colors.
+@param channels "all"|"red"|"cyan"  the colors that are drawn
+@param draw fun(ui: ui)  draws them
+@effect edits
+> ui:frame(0.01, function(ui) ui:channels("red", function(ui) ui:circle(10, 10, 5) end) end)
+> ui:channels("red", print)  --> error: expected a call within ui:frame)"},
     {"group", guarded<ui_group>, R"(
 Widgets laid out as one.
 @param draw fun(ui: ui)  describes the widgets
@@ -249,6 +273,7 @@ Tabs.
 @param id string  unique name
 @param names string[]  of the tabs
 @param draw fun(ui: ui, name: string)  describes the open one
+@param chosen? string  name of the tab that is opened now
 @effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:tabs("t", {"one", "two"}, function(ui, name) chosen = name end) end) end)
 > chosen  --> one)"},
@@ -259,6 +284,7 @@ A node of a tree.
 @option open? boolean = false  true: open at first
 @option leaf? boolean = false  true: without children
 @option selected? boolean = false  true: highlighted
+@option unfold? boolean = false  true: opened now
 @param draw? fun(ui: ui)  describes what is below it
 @return boolean clicked
 @return boolean double_clicked

@@ -172,6 +172,7 @@ int ui_separator(lua_State* L) { return framed_gui(L).separator(), 0; }
 int ui_spacing(lua_State* L) { return framed_gui(L).spacing(), 0; }
 int ui_focus(lua_State* L) { return framed_gui(L).focus_next(), 0; }
 int ui_scroll_to_end(lua_State* L) { return framed_gui(L).scroll_to_end(), 0; }
+int ui_reveal(lua_State* L) { return framed_gui(L).reveal(), 0; }
 int ui_hovered(lua_State* L) { return push(L, framed_gui(L).hovered()); }
 int ui_active(lua_State* L) { return push(L, framed_gui(L).active()); }
 
@@ -417,6 +418,11 @@ Gives the keyboard to the next widget.
 Scrolls to the last widget.
 @effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:text "a" ui:scroll_to_end() end) end)
+> ui.items[#ui.items].label  --> a)"},
+    {"reveal", guarded<ui_reveal>, R"(
+Scrolls the last widget into view, as little as possible.
+@effect edits
+> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:text "a" ui:reveal() end) end)
 > ui.items[#ui.items].label  --> a)"},
     {"hovered", guarded<ui_hovered>, R"(
 Is the mouse over the last widget?
