@@ -27,6 +27,20 @@ local function contacts_of(world)
   return list
 end
 
+-- raises an error if the frames of a page are not grasps, or not a recorded run
+local function check_frames(subject, grasps, recording)
+  if grasps and recording then raise(subject .. ": expected grasps or a recording, got both") end
+  if grasps and #grasps == 0 then raise(subject .. ": grasps: expected at least one, got none") end
+  for i = 1, #(grasps or {}) do
+    if clench.type(grasps[i]) ~= "grasp" then raise(("%s: grasps[%d]: expected a grasp, got %s"):format(subject, i, described(grasps[i]))) end
+  end
+  if not recording then return end
+  if type(recording.each) ~= "function" or type(recording.times) ~= "table" then
+    raise(("%s: recording: expected a recorded run of world:record, got %s"):format(subject, described(recording)))
+  end
+  if #recording.times == 0 then raise(subject .. ": recording: it is empty: the world has not run since it was created") end
+end
+
 -- frames of a page: one of the world, one for each grasp, or those of a recording
 local function frames_of(world, grasps, recording)
   if recording then return recording end
@@ -64,8 +78,7 @@ return function(world, path, options)
   local title, max_size = read:get "title", read:get "max_size"
   local grasps, recording, three_files = read:checked "grasps", read:checked "recording", read:checked "three"
   read:done()
-  if grasps and recording then raise(subject .. ": expected grasps or a recording, got both") end
-  if grasps and #grasps == 0 then raise(subject .. ": grasps: expected at least one, got none") end
+  check_frames(subject, grasps, recording)
   local three, missing = find_three(three_files)
   if not three then raise(subject .. ": " .. missing) end
   local data, notes = run.data_of(frames_of(world, grasps, recording))

@@ -15,7 +15,7 @@ function Session:__tostring()
   return ("session of %d commands%s"):format(#self.history.done, self.world and ", " .. tostring(self.world) or ", no world is open")
 end
 
-local groups = {"world", "settings", "file", "edit", "select", "body", "grasp", "eigengrasps", "grasps", "author", "quality", "forces", "planner", "dynamics", "virtual", "sensors", "misc"}
+local groups = {"world", "settings", "file", "edit", "select", "body", "mount", "grasp", "eigengrasps", "grasps", "author", "quality", "forces", "planner", "dynamics", "virtual", "sensors", "misc"}
 local events = {changed = true, diagnostic = true, progress = true, result = true}
 
 local function command_named(self, name)
@@ -65,6 +65,7 @@ end
 local function add_command(self, command)
   if not self.commands[command.name] then self.order[#self.order + 1] = command.name end
   self.commands[command.name] = command
+  self.registrations = self.registrations + 1
 end
 
 --- Registers a command.
@@ -246,7 +247,8 @@ function Session:find(address) return arguments.find(self, address) end
 
 return function(world)
   if world ~= nil and clench.type(world) ~= "world" then raise("clench.session: expected a world, got " .. described(world)) end
-  local session = setmetatable({depth = 0, commands = {}, order = {}, subscribers = {}, selection = {}, stack = {}, postures = {}, jobs = {}, lists = {}, found = {}, sensors = {postures = {}},
+  local session = setmetatable({depth = 0, commands = {}, order = {}, registrations = 0, subscribers = {}, selection = {}, stack = {}, postures = {}, jobs = {}, lists = {},
+                                found = {}, sensors = {postures = {}, birds = {}},
                                 history = history.new()}, Session)
   for _, group in ipairs(groups) do
     for _, command in ipairs(require("clench.session.commands." .. group)) do add_command(session, command) end

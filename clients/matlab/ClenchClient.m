@@ -1,5 +1,5 @@
 classdef ClenchClient < handle
-%CLENCHCLIENT  Commands a server of Clench (clench serve) by JSON-RPC 2.0.
+%CLENCHCLIENT  Client of a Clench server (clench serve), by JSON-RPC 2.0.
 %   c = ClenchClient()      connects to port 4765 of this machine, with the token stored by the server
 %   c = ClenchClient(url)   as clench serve prints it, 'tcp://127.0.0.1:4765/?token=...'
 %   result = c.call(method, name, value, ...)   a method of the server with arguments by name
@@ -14,7 +14,7 @@ classdef ClenchClient < handle
 %   clench:ConnectionLost, clench:Timeout.
 
   properties
-    timeout = Inf  % for each answer [s]; MATLAB's tcpclient does not notice before that a server has gone
+    timeout = Inf  % for each answer [s]; MATLAB's tcpclient does not detect earlier that a server has ended
   end
   properties (SetAccess = private)
     version = ''   % of the server
@@ -59,7 +59,7 @@ classdef ClenchClient < handle
           self.notifications{end + 1} = answer;
         elseif isempty(answer.id) || isequal(answer.id, self.number)
           break
-        end  % otherwise the answer to a call that had timed out
+        end  % otherwise it is the answer to a call that has timed out
       end
       if isfield(answer, 'error'), raise(answer.error); end
       result = answer.result;

@@ -1,7 +1,7 @@
 classdef ClenchConnection < handle
 %CLENCHCONNECTION  Lines of text over TCP, for ClenchClient and graspitServer.
-%   c = ClenchConnection(host, port)   connects by tcpclient, which MATLAB has, and Octave with its package
-%                                      instrument-control; otherwise through bash and its /dev/tcp
+%   c = ClenchConnection(host, port)   connects by tcpclient, a part of MATLAB and of Octave's package
+%                                      instrument-control; without it, through bash and its /dev/tcp
 %   c = ClenchConnection(host, port, transport)   'tcpclient' or 'bash'
 %   send(c, line)              sends a line
 %   line = receive(c, seconds) the next line; an error if none arrives in time, or the connection has ended
@@ -98,7 +98,7 @@ classdef ClenchConnection < handle
     end
 
     function openPipes(self, host, port)
-      % pipes of other connections are closed, which otherwise would not end while this one is open; Octave blocks SIGTERM
+      % pipes of other connections are closed, as those would otherwise not end while this one is open; Octave blocks SIGTERM
       script = ['for f in /dev/fd/*; do f=${f##*/}; if ((f > 2)); then eval "exec $f>&-"; fi; done; ' ...
                 'exec 2>/dev/null; exec 3<>"/dev/tcp/$0/$1" 4<&0 || exit 1; echo; ' ...
                 'cat <&3 & reader=$!; cat <&4 >&3 & writer=$!; wait -n; kill -9 $reader $writer'];
@@ -117,7 +117,7 @@ classdef ClenchConnection < handle
         chunk = zeros(1, 0, 'uint8');
         try
           count = self.port.NumBytesAvailable;
-          if count == 0 && isOctave()  % waits for one byte, and fails if the server has closed the connection
+          if count == 0 && isOctave()  % to wait for one byte fails if the server has closed the connection
             self.port.Timeout = 0.01;
             count = 1;
           end

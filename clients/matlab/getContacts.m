@@ -3,7 +3,7 @@ function [wrenches, locations, errors] = getContacts(bodies)
 %   wrenches  per contact fx fy fz tx ty tz on the body, in the contact frame [N, N m]
 %   locations per contact, in the body's frame [mm]
 %   errors    per contact max(0, threshold / 2 - gap) [mm]
-%   Of one index matrices with a row per contact, otherwise cells of such.
+%   For one index: matrices with a row per contact; otherwise cells of matrices.
   if nargin < 1, bodies = 'ALL'; end
   kinds = max(1, nargout);
   graspitServer('send', sprintf('getContacts %d %s', kinds, indexList(bodies)));

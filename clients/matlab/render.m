@@ -1,4 +1,4 @@
 function render()
-%RENDER  render()   Draws the world again, where it is shown.
+%RENDER  render()   Redraws the world where it is displayed.
   graspitServer('send', 'render');
 end

@@ -1,5 +1,5 @@
 function actual = setDOFForces(robots, forces)
-%SETDOFFORCES  actual = setDOFForces(robots, forces)   Efforts of motors [1e-9 N m, 1e-6 N], within their limits.
+%SETDOFFORCES  actual = setDOFForces(robots, forces)   Sets efforts of motors [1e-9 N m, 1e-6 N], clamped to their limits; actual: those that were set.
 %   forces: a vector; for several robots a cell of vectors.
   given = asCells(robots, forces, 'setDOFForces');
   text = ['setDOFForces ' indexList(robots)];

@@ -16,6 +16,7 @@ class Hasher {
     add(static_cast<uint64_t>(text.size()));
     for (const char c : text) add(static_cast<uint64_t>(static_cast<unsigned char>(c)));
   }
+  void add_flag(bool on) { add(static_cast<uint64_t>(on)); }
   uint64_t value() const { return mix(state_); }
 
   static constexpr uint64_t mix(uint64_t x) {

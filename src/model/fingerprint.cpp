@@ -19,8 +19,6 @@ static void add_numbers(Hasher& h, const Numbers& numbers) {
   for (const double x : numbers) add_number(h, x);
 }
 
-static void add_flag(Hasher& h, bool on) { h.add(static_cast<uint64_t>(on)); }
-
 // a quaternion and its negative are one rotation, so its matrix is hashed
 static void add_pose(Hasher& h, const Pose& pose) {
   add_numbers(h, pose.position);
@@ -90,17 +88,17 @@ static void add(Hasher& h, const JointSpec& joint) {
   add_pose(h, joint.X_PJ);
   add_numbers(h, joint.axis);
   h.add(static_cast<uint64_t>(joint.dof));
-  add_flag(h, joint.endless);
+  h.add_flag(joint.endless);
   for (const double x : {joint.ratio, joint.min, joint.max, joint.viscous, joint.coulomb,
                          joint.armature, joint.spring, joint.rest, joint.offset})
     add_number(h, x);
-  add_flag(h, joint.effort_range.has_value());
+  h.add_flag(joint.effort_range.has_value());
   if (joint.effort_range) add_numbers(h, *joint.effort_range);
 }
 
 static void add(Hasher& h, const DofSpec& dof) {
   h.add(static_cast<uint64_t>(dof.kind));
-  add_flag(h, dof.driven);
+  h.add_flag(dof.driven);
   for (const double x : {dof.default_velocity, dof.max_effort, dof.max_velocity, dof.kp, dof.kd,
                          dof.damping_ratio, dof.breakaway_torque, dof.default_value})
     add_number(h, x);
@@ -124,7 +122,7 @@ static void add(Hasher& h, const JointTendonSpec& tendon) {
     h.add(static_cast<uint64_t>(dof));
     add_number(h, arm);
   }
-  add_flag(h, tendon.range.has_value());
+  h.add_flag(tendon.range.has_value());
   if (tendon.range) add_numbers(h, *tendon.range);
   add_numbers(h, tendon.slack);
   for (const double x : {tendon.stiffness, tendon.damping, tendon.friction}) add_number(h, x);
@@ -144,7 +142,7 @@ uint64_t fingerprint(const World& world, Id<Robot> id) {
   for (const DofSpec& dof : robot.dofs) add(h, dof);
   for (const DofDrive& drive : robot.drives) add(h, drive);
   for (const auto& limits : robot.limits) add_numbers(h, limits);
-  for (const bool endless : robot.endless) add_flag(h, endless);
+  for (const bool endless : robot.endless) h.add_flag(endless);
   for (const JointTendonSpec& tendon : robot.joint_tendons) add(h, tendon);
   add_pose(h, robot.X_BA);
   return h.value();

@@ -4,6 +4,54 @@
 
 namespace clench {
 
+static void add_links(Robot& robot, const RobotSpec& spec) {
+  for (const LinkSpec& link : spec.links) {
+    const int first = static_cast<int>(robot.joints.size());
+    for (const JointSpec& joint : link.joints)
+      robot.joints.push_back({joint, static_cast<int>(robot.links.size())});
+    robot.links.push_back(
+        {{}, link.parent, first, static_cast<int>(robot.joints.size()), link.X_JL});
+  }
+}
+
+static void add_drives(Robot& robot, const RobotSpec& spec) {
+  // actuators without force drive nothing
+  for (int i = 0; i < static_cast<int>(spec.dofs.size()); ++i) {
+    DofDrive drive = drive_of(spec, i);
+    DofSpec& dof = robot.dofs[i];
+    dof.driven = dof.driven && drive.acts();
+    robot.drives.push_back(dof.driven ? std::move(drive) : DofDrive{{}, {}, dof.max_effort});
+  }
+}
+
+Robot make_robot(const RobotSpec& spec) {
+  Robot robot;
+  robot.name = spec.name;
+  robot.source = spec.source;
+  robot.file = spec.file;
+  robot.class_name = spec.class_name;
+  robot.dofs = spec.dofs;
+  robot.X_BA = spec.X_BA.value_or(Pose{});
+  robot.files = spec.files;
+  robot.tracker = spec.tracker;
+  robot.joint_tendons = spec.joint_tendons;
+  if (PassiveParts parts{spec.tactile, spec.tendons, spec.wrappers, spec.actuators}; !parts.empty())
+    robot.passive = std::make_shared<PassiveParts>(std::move(parts));
+  if (spec.eigengrasps) robot.eigengrasps = std::make_shared<EigengraspSet>(*spec.eigengrasps);
+  if (spec.virtual_contacts)
+    robot.virtual_contacts =
+        std::make_shared<std::vector<VirtualContactSpec>>(*spec.virtual_contacts);
+  if (spec.glove) robot.glove = std::make_shared<GloveCalibration>(*spec.glove);
+  add_links(robot, spec);
+  add_drives(robot, spec);
+  robot.chains = chains_of(spec);
+  for (int i = 0; i < static_cast<int>(spec.dofs.size()); ++i) {
+    robot.limits.push_back(dof_range(spec, i));
+    robot.endless.push_back(dof_is_endless(spec, i));
+  }
+  return robot;
+}
+
 // A pose composed of many; its rotation is normalized once, at the end. Many joint frames of
 // GraspIt! robots only have a translation or nothing.
 [[gnu::always_inline]] static inline void append(Pose& X, const Pose& next) {

@@ -63,6 +63,9 @@ struct Robot {
   Id<Body> body_of(int link) const { return link < 0 ? base : links[link].body; }
 };
 
+/// Converts a spec. The robot has no bodies yet, and no entries in the state of a world.
+Robot make_robot(const RobotSpec& spec);
+
 /// Poses of joints and links, in the frame in which the base's pose is given.
 struct RobotFrames {
   std::vector<Pose> joints;  ///< before its motion

@@ -199,10 +199,15 @@ class World {
   Robot& edit(Id<Robot> id);
   uint32_t next_serial() { return ++lineage_->serials; }
   Id<Body> insert(Body body, Pose X_WB, const std::string& name);
+  Id<Robot> insert(Robot robot);
+  void add_start_state(Robot& robot);
+  void check_name_is_free(const std::string& name) const;
   std::string unique_name(const std::string& expected);
   void switch_off_neighbors(const Robot& robot, bool chain_links_collide);
   void add_parts(Id<Robot> id, const RobotSpec& spec, const Pose& X_WB);
   void erase(Id<Body> id);
+  /// without its parts
+  void erase(Id<Robot> id);
   /// throws Error if another robot carries it
   void check_free(Id<Robot> robot) const;
   /// Poses of links for the present base and joints; a step computes them anew.

@@ -13,11 +13,11 @@ static void add(Hasher& h, const EigengraspSet& set) {
   for (const auto& grasp : set.grasps) {
     add(h, grasp.vector);
     h.add(grasp.eigenvalue);
-    h.add(static_cast<uint64_t>(grasp.limits.has_value()));
+    h.add_flag(grasp.limits.has_value());
     if (grasp.limits) h.add((*grasp.limits)[0]), h.add((*grasp.limits)[1]);
   }
   for (const auto* x : {&set.origin, &set.norm}) {
-    h.add(static_cast<uint64_t>(x->has_value()));
+    h.add_flag(x->has_value());
     if (*x) add(h, **x);
   }
 }
@@ -35,7 +35,7 @@ static void add(Hasher& h, const std::vector<VirtualContactSpec>& contacts) {
 static void add(Hasher& h, const DofControl& control) {
   h.add(static_cast<uint64_t>(control.mode));
   for (const double x : {control.target, control.velocity, control.effort}) h.add(x);
-  h.add(static_cast<uint64_t>(control.trajectory.has_value()));
+  h.add_flag(control.trajectory.has_value());
   if (const auto& t = control.trajectory)
     for (const double x : {t->from, t->to, t->begin, t->duration}) h.add(x);
 }
@@ -71,16 +71,16 @@ static void add_motion(Hasher& h, const World& world) {
 }
 
 static void add(Hasher& h, const World& world, const DynamicSettings& settings) {
-  const auto flag = [&](bool on) { h.add(static_cast<uint64_t>(on)); };
   h.add(settings.step);
   for (const int x :
        {static_cast<int>(settings.engine), static_cast<int>(settings.cone), settings.cone_edges})
     h.add(static_cast<uint64_t>(x));
   for (const auto id : world.robots()) {
     const RobotDynamics& robot = settings.robot(id);
-    for (const bool on : {robot.floating, robot.gravity_compensation, robot.breakaway}) flag(on);
+    for (const bool on : {robot.floating, robot.gravity_compensation, robot.breakaway})
+      h.add_flag(on);
     for (const auto& gains : robot.gains) {
-      flag(gains.has_value());
+      h.add_flag(gains.has_value());
       if (gains) add(h, *gains);
     }
     if (robot.max_effort) h.add(*robot.max_effort);
@@ -91,79 +91,95 @@ static void add(Hasher& h, const World& world, const DynamicSettings& settings) 
     h.add(world.body(object).name), h.add(world.body(to).name);
 }
 
-uint64_t World::hash() const {
-  Hasher h;
-  const auto flag = [&](bool on) { h.add(static_cast<uint64_t>(on)); };
-  for (const auto id : bodies()) {
-    const Body& b = body(id);
-    h.add(b.name);
-    h.add(static_cast<uint64_t>(b.kind));
-    add(h, pose(id));
-    h.add(static_cast<uint64_t>(b.material));
-    h.add(b.mass);
-    for (const double x : b.com) h.add(x);
-    for (const double x : b.inertia_per_mass.reshaped()) h.add(x);
-    h.add(b.elastic_modulus.value_or(0));
-    h.add(b.soft_layer);
-    h.add(b.poisson_ratio);
-    h.add(b.restitution);
-    // defaults do not change the hash
-    for (const double x :
-         {b.free_damping, b.free_friction, b.free_armature, b.gravity_compensation})
-      if (x != 0) h.add(x);
-    flag(settings_->switched_off.contains(id));
-    h.add(b.shape ? b.shape->hash() : 0);
+static void add(Hasher& h, const World& world, Id<Body> id) {
+  const Body& b = world.body(id);
+  h.add(b.name);
+  h.add(static_cast<uint64_t>(b.kind));
+  add(h, world.pose(id));
+  h.add(static_cast<uint64_t>(b.material));
+  h.add(b.mass);
+  for (const double x : b.com) h.add(x);
+  for (const double x : b.inertia_per_mass.reshaped()) h.add(x);
+  h.add(b.elastic_modulus.value_or(0));
+  h.add(b.soft_layer);
+  h.add(b.poisson_ratio);
+  h.add(b.restitution);
+  // defaults do not change the hash
+  for (const double x : {b.free_damping, b.free_friction, b.free_armature, b.gravity_compensation})
+    if (x != 0) h.add(x);
+  h.add_flag(world.settings().switched_off.contains(id));
+  h.add(b.shape ? b.shape->hash() : 0);
+}
+
+static void add(Hasher& h, const World& world, Id<Robot> id) {
+  const Robot& r = world.robot(id);
+  h.add(r.name);
+  for (const double x : world.dofs(id)) h.add(x);
+  for (const auto& range : r.limits) h.add(range[0]), h.add(range[1]);
+  for (const bool endless : r.endless) h.add_flag(endless);
+  add(h, r.X_BA);
+  h.add_flag(r.eigengrasps != nullptr);
+  if (r.eigengrasps) add(h, *r.eigengrasps);
+  h.add_flag(r.virtual_contacts != nullptr);
+  if (r.virtual_contacts) add(h, *r.virtual_contacts);
+  h.add_flag(r.mounting.has_value());
+  if (r.mounting) {
+    h.add(world.robot(r.mounting->parent).name);
+    h.add(static_cast<uint64_t>(r.mounting->link));
+    add(h, r.mounting->X_LB);
   }
-  for (const auto id : robots()) {
-    const Robot& r = robot(id);
-    h.add(r.name);
-    for (const double x : dofs(id)) h.add(x);
-    for (const auto& range : r.limits) h.add(range[0]), h.add(range[1]);
-    for (const bool endless : r.endless) flag(endless);
-    add(h, r.X_BA);
-    flag(r.eigengrasps != nullptr);
-    if (r.eigengrasps) add(h, *r.eigengrasps);
-    flag(r.virtual_contacts != nullptr);
-    if (r.virtual_contacts) add(h, *r.virtual_contacts);
-    flag(r.mounting.has_value());
-    if (r.mounting) {
-      h.add(robot(r.mounting->parent).name);
-      h.add(static_cast<uint64_t>(r.mounting->link));
-      add(h, r.mounting->X_LB);
-    }
-    for (const JointPosition& own : own_joint_positions(id))
-      flag(own.has_value()), h.add(own.value_or(0));
-  }
-  for (const auto& name : settings_->materials.names()) h.add(name);
-  const int count = static_cast<int>(settings_->materials.names().size());
+  for (const JointPosition& own : world.own_joint_positions(id))
+    h.add_flag(own.has_value()), h.add(own.value_or(0));
+}
+
+static void add(Hasher& h, const MaterialTable& materials) {
+  for (const auto& name : materials.names()) h.add(name);
+  const int count = static_cast<int>(materials.names().size());
   for (int i = 0; i < count; ++i)
     for (int j = 0; j <= i; ++j) {
-      const Friction f = settings_->materials.friction(i, j);
+      const Friction f = materials.friction(i, j);
       h.add(f.statics), h.add(f.kinetic), h.add(f.restitution.value_or(-1));
     }
-  for (const auto& [a, b] : settings_->pairs_off) h.add(body(a).name), h.add(body(b).name);
+}
+
+static void add_collision(Hasher& h, const World& world) {
+  const WorldSettings& settings = world.settings();
+  const auto add_pairs = [&](const std::set<BodyPair>& pairs) {
+    for (const auto& [a, b] : pairs) h.add(world.body(a).name), h.add(world.body(b).name);
+  };
+  add_pairs(settings.pairs_off);
   // worlds without bits have the same hash as before bits existed
-  for (const auto& [id, of] : settings_->collision_bits) {
-    h.add(body(id).name);
+  for (const auto& [id, of] : settings.collision_bits) {
+    h.add(world.body(id).name);
     h.add(uint64_t{of.first.type} << 32 | of.first.affinity);
-    flag(of.first.stands);
+    h.add_flag(of.first.stands);
   }
-  for (const auto& [a, b] : settings_->pairs_on) h.add(body(a).name), h.add(body(b).name);
+  add_pairs(settings.pairs_on);
+}
+
+static void add(Hasher& h, const World& world, const Keyframe& keyframe) {
+  h.add(keyframe.name);
+  for (const auto& placed : keyframe.bodies)
+    if (world.alive(placed.body)) h.add(world.body(placed.body).name), add(h, placed.X_WB);
+  for (const auto& placed : keyframe.robots) {
+    if (!world.alive(placed.robot)) continue;
+    h.add(world.robot(placed.robot).name);
+    h.add_flag(placed.X_WB.has_value());
+    if (placed.X_WB) add(h, *placed.X_WB);
+    for (const double q : placed.dofs) h.add(q);
+  }
+}
+
+uint64_t World::hash() const {
+  Hasher h;
+  for (const auto id : bodies()) add(h, *this, id);
+  for (const auto id : robots()) add(h, *this, id);
+  add(h, settings_->materials);
+  add_collision(h, *this);
   h.add(settings_->contact_threshold);
   for (const double x : settings_->gravity) h.add(x);
-  for (const Keyframe& keyframe : settings_->keyframes) {
-    h.add(keyframe.name);
-    for (const auto& placed : keyframe.bodies)
-      if (alive(placed.body)) h.add(body(placed.body).name), add(h, placed.X_WB);
-    for (const auto& placed : keyframe.robots) {
-      if (!alive(placed.robot)) continue;
-      h.add(robot(placed.robot).name);
-      flag(placed.X_WB.has_value());
-      if (placed.X_WB) add(h, *placed.X_WB);
-      for (const double q : placed.dofs) h.add(q);
-    }
-  }
-  flag(settings_->collision_on);
+  for (const Keyframe& keyframe : settings_->keyframes) add(h, *this, keyframe);
+  h.add_flag(settings_->collision_on);
   add(h, *this, settings_->dynamics);
   add_motion(h, *this);
   return h.value();

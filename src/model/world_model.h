@@ -12,6 +12,7 @@
 #include "clench/model/dynamic_settings.h"
 #include "clench/model/dynamic_state.h"
 #include "clench/model/robot.h"
+#include "clench/model/slot.h"
 #include "clench/spec/world_spec.h"
 
 namespace clench {
@@ -19,14 +20,6 @@ namespace clench {
 using BodyPair = std::pair<Id<Body>, Id<Body>>;
 /// Every query runs on a pair in one order, so that (a, b) and (b, a) give the same bits.
 inline BodyPair ordered(Id<Body> a, Id<Body> b) { return std::minmax(a, b); }
-
-/// An entry for a T, with the serial number of its present or last occupant.
-template <class T>
-struct Slot {
-  uint32_t serial = 0;
-  bool used = false;
-  T value;  ///< of the last occupant; its name is kept for errors
-};
 
 /// Bodies and robots. Clones and snapshots share it; a world copies it before a change if it is
 /// shared.
@@ -95,7 +88,7 @@ struct WorldState {
   std::shared_ptr<DynamicState> dynamics;
 
   /// reserves memory so that copying the other state allocates nothing
-  void make_room_for(const WorldState& other);
+  void reserve_for(const WorldState& other);
   size_t bytes() const;
 };
 

@@ -30,7 +30,7 @@ Pty open_pty() {
   auto other = std::make_shared<Descriptor>(::open(path, O_RDWR | O_NOCTTY | O_CLOEXEC));
   if (!other->is_open()) fail_pty();
   set_line(other->number(), {.path = path});
-  ours.set_farewell([other](int) { other->close(); });
+  ours.set_on_close([other](int) { other->close(); });
   return {Stream(std::move(ours), path), path};
 }
 

@@ -71,7 +71,7 @@ Stream open_serial(const SerialOptions& options) {
     fail(ErrorKind::file, "{}: another process uses this serial line", options.path);
   set_line(line.number(), options);
   ioctl(line.number(), TCFLSH, TCIFLUSH);
-  line.set_farewell([before](int number) { ioctl(number, TCSETS2, &before); });
+  line.set_on_close([before](int number) { ioctl(number, TCSETS2, &before); });
   return Stream(std::move(line), options.path);
 }
 

@@ -164,7 +164,7 @@ Acceptor Acceptor::unix_socket(const std::string& path) {
   if (::fchmod(made.number(), S_IRUSR | S_IWUSR) != 0 ||
       ::bind(made.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
     fail(ErrorKind::file, "{}: {}", path, system_reason(errno));
-  made.set_farewell([path](int) { ::unlink(path.c_str()); });
+  made.set_on_close([path](int) { ::unlink(path.c_str()); });
   return Acceptor(std::move(made), path);
 }
 

@@ -19,7 +19,8 @@ class Stream {
   };
 
   /// Takes ownership of an open descriptor and makes it non-blocking.
-  /// name  for messages: "/dev/ttyUSB0", "127.0.0.1:4765"
+  /// name    for messages: "/dev/ttyUSB0", "127.0.0.1:4765"
+  /// throws  Error if the system rejects that
   Stream(Descriptor descriptor, std::string name);
   /// A stream of two descriptors, one for each direction, such as standard input and output.
   Stream(Descriptor input, Descriptor output, std::string name);
@@ -56,10 +57,11 @@ class Stream {
 
  private:
   Descriptor descriptor_, output_;  ///< not open if one descriptor is used for both directions
-  std::string name_, kept_, sought_;
-  size_t taken_ = 0,
-         /// positions in kept_: bytes taken; bytes after these known to be free of `sought_`
-      searched_ = 0;
+  std::string name_;
+  std::string kept_;     ///< bytes that were read; the first `taken_` of them were taken
+  std::string sought_;   ///< last delimiter
+  size_t taken_ = 0;     ///< [bytes]
+  size_t searched_ = 0;  ///< bytes after these that are known to be free of `sought_`
   bool is_socket_ = false;
   End end_ = End::none, write_end_ = End::none;
 };

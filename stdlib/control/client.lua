@@ -51,24 +51,28 @@ end
 
 local max_gathered = 1 << 14  -- replies that are sent together [bytes]
 
--- sends the gathered replies; returns as port:send
-local function send_gathered(self)
+-- the gathered replies, which are removed
+local function take_gathered(self)
   local bytes = table.concat(self.gathered)
   self.gathered, self.gathered_size = {}, 0
-  return self.port:send(bytes)
+  return bytes
+end
+
+local function send_now(self, bytes)
+  local ok, why = self.port:send(bytes)
+  if not ok then self:close(why == "full" and "it does not receive" or why) end
 end
 
 --- Sends the gathered replies.
 function Client:flush()
   self.gathers = false
-  if self.gathered_size == 0 or self.is_closed then return end
-  local ok, why = send_gathered(self)
-  if not ok then self:close(why == "full" and "it does not receive" or why) end
+  if self.gathered_size > 0 and not self.is_closed then send_now(self, take_gathered(self)) end
 end
 
 --- Sends bytes; while `gathers` is set, with those that follow. A client that does not receive its replies is disconnected.
 function Client:send_raw(bytes)
   if self.is_closed then return end
+  if not self.gathers and self.gathered_size == 0 then return send_now(self, bytes) end
   self.gathered[#self.gathered + 1] = bytes
   self.gathered_size = self.gathered_size + #bytes
   if not self.gathers or self.gathered_size > max_gathered then self:flush() end
@@ -98,7 +102,7 @@ function Client:close(reason)
   if self.is_closed then return end
   self.is_closed, self.reason = true, reason or "closed"
   stop_reading(self)
-  if self.gathered_size > 0 then send_gathered(self) end
+  if self.gathered_size > 0 then self.port:send(take_gathered(self)) end
   self.port:close()
   self.on_close(self)
 end

@@ -10,11 +10,11 @@ local mcp = require "clench.control.mcp"
 local new_client = require "clench.control.client"
 local new_options = require "clench.options"
 local new_port = require "clench.port.port"
-local new_turn = require "clench.control.turn"
 local open_stdio = require "clench.open_stdio"
 local rpc = require "clench.control.rpc"
 local text = require "clench.control.text"
 local token = require "clench.control.token"
+local turn = require "clench.control.turn"
 local web = require "clench.control.web"
 local getmetatable = debug.getmetatable
 
@@ -46,9 +46,11 @@ local function answer_text(self, client, line)
   if reply ~= "" then client:send(reply) end
 end
 
-local text_protocol = {answer = answer_text}
+local text_protocol = {answer = answer_text, max_line = 1 << 16}
 
-function text_protocol.refuse_long(client) client:send(("Error: a line has more than %d bytes\n"):format(client.port.max_line)) end
+function text_protocol.refuse_long(client)
+  client:send(("Error: a line has more than %d bytes\n"):format(math.min(client.port.max_line, text_protocol.max_line)))
+end
 
 -- the first line determines the protocol of a client
 local function protocol_of(client, line)
@@ -64,10 +66,11 @@ end
 -- serves a line of a client; false if no line has arrived
 local function serve_line(self, client)
   local line, why = client.port:take_line()
-  if line then
-    protocol_of(client, line).answer(self, client, line)
-  elseif why then
+  local protocol = line and protocol_of(client, line)
+  if why or line and #line > (protocol.max_line or math.huge) then
     refuse_long(client)
+  elseif line then
+    protocol.answer(self, client, line)
   end
   return line ~= nil
 end
@@ -93,17 +96,41 @@ local function serve_safely(self, client)
   return true
 end
 
--- serves one line of each client; false: there are none
+local max_short = 1 << 12  -- line or frame [bytes]
+
+-- is the next line or frame of a client long?
+local function has_long(client)
+  if client.header then return client.header.size > max_short end
+  local stream = client.port.stream
+  return stream:size() > max_short and (stream:find "\n" or 0) > max_short
+end
+
+-- serves the next of the clients whose lines are long, after the last one in the order of their connections; false: none has arrived completely
+local function serve_long(self, clients)
+  for _, is_later in ipairs {true, false} do
+    for _, client in ipairs(clients) do
+      if (client.number > self.last_long) == is_later and serve_safely(self, client) then
+        self.last_long = client.number
+        return true
+      end
+    end
+  end
+  return false
+end
+
+-- Serves one line of each client, but only one long line of all of them, so that short ones wait for no more than that. false: there are no lines
 local function serve_each(self, clients)
-  local some = false
-  for _, client in ipairs(clients) do some = serve_safely(self, client) or some end
-  return some
+  local some, long = false, {}
+  for _, client in ipairs(clients) do
+    if has_long(client) then long[#long + 1] = client else some = serve_safely(self, client) or some end
+  end
+  return #long > 0 and serve_long(self, long) or some
 end
 
 -- Serves clients in the order of their connections, one line of each in turn, until no lines are left.
 local function serve(self)
   local count, clients
-  local pause = new_turn(function()
+  local pause = turn.new(function()
     for _, client in ipairs(clients) do client:flush() end
   end)
   repeat
@@ -248,7 +275,7 @@ local function read_options(options)
   local port, host, path = o:get "port", o:raw "host", o:raw "path"
   if host ~= nil then check.string(subject, "host", host) end
   local is_local = path ~= nil or is_loopback(host or "localhost")
-  local server = {session = session, token = read_token(o, is_local), serves_text = is_local, clients = {}, count = 0, max_silence = 10, jobs = {}, job_count = 0, folder = read_folder(o),
+  local server = {session = session, token = read_token(o, is_local), serves_text = is_local, clients = {}, count = 0, max_silence = 10, last_long = 0, jobs = {}, job_count = 0, folder = read_folder(o),
                   max_clients = o:get "max_clients", max_line = o:get "max_line",
                   max_queue = o:get "max_queue", on_connect = o:get "on_connect", on_close = o:get "on_close"}
   local stdio = o:get "stdio"

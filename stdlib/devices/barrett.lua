@@ -1,6 +1,6 @@
 local class = require "clench.class"
+local described = require "clench.described"
 local device = require "clench.devices.device"
-local is_stopped = require "clench.is_stopped"
 local new_options = require "clench.options"
 local raise = require "clench.raise"
 
@@ -10,10 +10,11 @@ local Barrett = class "barrett"
 -- motors in the order of the hand's DOFs: spread, then fingers
 local letters = {"S", "1", "2", "3"}
 local names = {"spread", "finger 1", "finger 2", "finger 3"}
-local max_counts = {3150, 17800, 17800, 17800}
-local max_angles = {math.pi, 2.51327, 2.51327, 2.51327}  -- [rad]
-local all = "123S"               -- the order in which the hand reports values
-local max_closing_time = 3       -- [s]
+local max_spread, max_finger = 3150, 17800                   -- ends of travel [counts]
+local spread_angle, finger_angle = math.pi, 2.51327          -- the same [rad]
+local max_counts = {max_spread, max_finger, max_finger, max_finger}
+local max_angles = {spread_angle, finger_angle, finger_angle, finger_angle}
+local all = "123S"                 -- the order in which the hand reports values
 local order_of_all = {4, 1, 2, 3}  -- position of each DOF in that order
 
 function Barrett:__tostring() return "Barrett hand at " .. self.port.name end
@@ -24,42 +25,62 @@ local function exchange(self, command, seconds)
   local ok, why = self.port:write(command .. "\r", seconds)
   if not ok then return nil, why end
   local text
-  text, why = self.port:read_until("=> ", seconds)
+  text, why = device.read_until(self.port, "=> ", seconds)
   if not text then return nil, why end
-  -- a different echo: the hand has received another command, or the reply is damaged
-  if text:sub(1, #command) ~= command or text:find "[^\r\n\t -~]" then return nil, "damaged" end
+  -- a different or longer echo: the hand has received another command, or the reply is damaged
+  if text:sub(1, #command) ~= command or not text:find("^[\r\n]", #command + 1) or text:find "[^\r\n\t -~]" then return nil, "damaged" end
   return text:sub(#command + 1)
 end
 
--- Sends a command until it is answered; is_once: it must not be repeated, as a repetition would have a further effect.
-local function ask(self, command, seconds, is_once)
-  for _ = 1, is_once and 1 or self.attempts do
-    local reply, why = exchange(self, command, seconds)
-    if reply then
-      local code = reply:match "ERR%s*(%d+)"
-      if not code then return reply end
-      raise(("%s: the hand reports error %s after %s"):format(subject, code, command), "stale")
-    end
-    if why == "closed" or why == "unplugged" then device.fail(subject, self.port, why, command) end
-  end
-  device.fail(subject, self.port, "timeout", command)
+local function error_of(reply) return reply and reply:match "ERR%s*(%d+)" end
+
+local function check_reply(command, reply)
+  local code = error_of(reply)
+  if code then raise(("%s: the hand reports error %s after %s"):format(subject, code, command), "stale") end
+  return reply
 end
 
--- Numbers of a reply, from 0 to their maxima. No checksum protects them: they are accepted once two replies agree.
-local function ask_numbers(self, command, count, largest)
-  local seen = {}
-  for _ = 1, self.attempts do
-    local numbers = {}
-    for word in ask(self, command, self.timeout):gmatch "%S+" do
-      local value = word:match "^%d+$" and tonumber(word)
-      if not value or value > largest[#numbers + 1 <= count and #numbers + 1 or 1] then numbers = {} break end
-      numbers[#numbers + 1] = value
-    end
-    local key = #numbers == count and table.concat(numbers, " ")
-    if key and seen[key] then return numbers end
-    if key then seen[key] = true end
+-- Sends a command until it is answered. An error may be that of a command that was damaged on its way: it is accepted once it is repeated.
+local function ask(self, command, seconds)
+  local last
+  return check_reply(command, device.ask(self, command, function()
+    local reply, why = exchange(self, command, seconds)
+    local code = error_of(reply)
+    if code and code ~= last then reply, why = nil, "damaged" end
+    last = code
+    return reply, why
+  end))
+end
+
+-- sends a command that must not be repeated, as a repetition would have a further effect
+local function ask_once(self, command, seconds)
+  local reply, why = exchange(self, command, seconds)
+  if reply then return check_reply(command, reply) end
+  device.check_lost(self, why)
+  device.fail(self, "timeout", command)
+end
+
+-- the numbers of a reply, from 0 to their maxima; nil: the reply is damaged
+local function parse_numbers(reply, max)
+  local numbers = {}
+  for word in reply:gmatch "%S+" do
+    local value, largest = word:match "^%d+$" and tonumber(word), max[#numbers + 1]
+    if not value or not largest or value > largest then return nil end
+    numbers[#numbers + 1] = value
   end
-  device.fail(subject, self.port, "timeout", command)
+  return #numbers == #max and numbers or nil
+end
+
+-- Numbers of the reply to a command, from 0 to their maxima. No checksum protects them: they are accepted once two replies agree.
+local function ask_numbers(self, command, max)
+  local seen = {}
+  return device.ask(self, command, function()
+    local numbers = parse_numbers(ask(self, command, self.timeout), max)
+    if not numbers then return nil end
+    local key = table.concat(numbers, " ")
+    if seen[key] then return numbers end
+    seen[key] = true
+  end)
 end
 
 local function counts_of(angles)
@@ -72,7 +93,7 @@ end
 local function prefix_of(method, motors)
   if motors == nil then return "" end
   if type(motors) ~= "string" or not motors:find "^[123S]+$" then
-    raise(("barrett:%s: motors: expected letters of 1, 2, 3 and S, as in '12S', got %s"):format(method, require "clench.described"(motors)))
+    raise(("barrett:%s: motors: expected letters of 1, 2, 3 and S, as in '12S', got %s"):format(method, described(motors)))
   end
   return motors
 end
@@ -96,14 +117,16 @@ function Barrett:close_fingers(motors) ask(self, prefix_of("close_fingers", moto
 ---@param counts integer  > 0 closes, < 0 opens
 function Barrett:increment(counts, motors)
   local whole = type(counts) == "number" and math.tointeger(counts)
-  if not whole or whole == 0 or math.abs(whole) > max_counts[2] then raise "barrett:increment: counts: expected a whole number other than 0 of at most 17800" end
-  ask(self, ("%s%s %d"):format(prefix_of("increment", motors), whole > 0 and "IC" or "IO", math.abs(whole)), self.move_timeout, true)
+  if not whole or whole == 0 or math.abs(whole) > max_finger then
+    raise(("barrett:increment: counts: expected a whole number other than 0, from -%d to %d, got %s"):format(max_finger, max_finger, described(counts)))
+  end
+  ask_once(self, ("%s%s %d"):format(prefix_of("increment", motors), whole > 0 and "IC" or "IO", math.abs(whole)), self.move_timeout)
 end
 
 --- Closes or opens with constant torque.
 ---@param direction "close"|"open"
 function Barrett:torque(direction, motors)
-  if direction ~= "close" and direction ~= "open" then raise "barrett:torque: direction: expected 'close' or 'open'" end
+  if direction ~= "close" and direction ~= "open" then raise("barrett:torque: direction: expected 'close' or 'open', got " .. described(direction)) end
   ask(self, prefix_of("torque", motors) .. (direction == "close" and "TC" or "TO"), self.move_timeout)
 end
 
@@ -116,13 +139,10 @@ function Barrett:move(angles)
   device.check_numbers("barrett:move", angles, names, {0, 0, 0, 0}, max_angles, "rad")
   local goal = counts_of(angles)
   for i, letter in ipairs(letters) do
-    local ok
-    for _ = 1, self.attempts do
+    device.ask(self, "FSET DP", function()
       ask(self, ("%sFSET DP %d"):format(letter, goal[i]), self.timeout)
-      ok = ask_numbers(self, letter .. "FGET DP", 1, {max_counts[i]})[1] == goal[i]
-      if ok then break end
-    end
-    if not ok then device.fail(subject, self.port, "timeout", "FSET DP") end
+      return ask_numbers(self, letter .. "FGET DP", {max_counts[i]})[1] == goal[i] or nil
+    end)
   end
   ask(self, all .. "M", self.move_timeout)
 end
@@ -130,51 +150,33 @@ end
 --- Positions of the motors: spread and fingers.
 ---@return number[] [rad]
 function Barrett:read()
-  local counts = ask_numbers(self, all .. "FGET P", 4, {17800, 17800, 17800, 3150})
+  local counts = ask_numbers(self, all .. "FGET P", {max_finger, max_finger, max_finger, max_spread})
   local angles = {}
   for i, place in ipairs(order_of_all) do angles[i] = counts[place] / max_counts[i] * max_angles[i] end
   return angles
 end
 
---- For each finger: has it broken away, and at which position?
----@return {broken: boolean, position: number}[]  of the three fingers [rad]
+--- Breakaways of the fingers: whether each has broken away, and at which position [rad].
+---@return {broken: boolean, position: number}[]
 function Barrett:breakaways()
-  local detected = ask_numbers(self, "123FGET BD", 3, {1, 1, 1})
-  local at = ask_numbers(self, "123FGET BP", 3, {17800, 17800, 17800})
+  local detected = ask_numbers(self, "123FGET BD", {1, 1, 1})
+  local at = ask_numbers(self, "123FGET BP", {max_finger, max_finger, max_finger})
   local out = {}
-  for i = 1, 3 do out[i] = {broken = detected[i] == 1, position = at[i] / 17800 * 2.51327} end
+  for i = 1, 3 do out[i] = {broken = detected[i] == 1, position = at[i] / max_finger * finger_angle} end
   return out
 end
 
--- Switches the motors off, again until the hand confirms it or the time is over; false: it has not confirmed it.
-local function stop_surely(self)
-  local last = clench.clock() + math.min(self.attempts * self.timeout, max_closing_time)
-  for _ = 1, self.attempts do
-    local left = last - clench.clock()
-    if left <= 0 then return false end
-    local reply, why = exchange(self, "T", math.min(self.timeout, left))
-    if reply and not reply:find "ERR" then return true end
-    if why == "closed" or why == "unplugged" then return false end
-  end
-  return false
+local function try_stop(self, seconds)
+  local reply, why = exchange(self, "T", seconds)
+  return reply ~= nil and not error_of(reply), why
 end
 
 --- Switches the motors off and closes the port. A stop that the hand does not confirm is repeated for at most three seconds.
 ---@return boolean stopped  false: the hand has not confirmed it
-function Barrett:close()
-  if self.is_closed then return true end
-  self.is_closed = true
-  local ok, stopped = pcall(stop_surely, self)
-  if not ok then device.send_last(self.port, "T\r") end  -- nothing can be waited for
-  if self.owns_port then self.port:close() end
-  if is_stopped(stopped) then error(stopped, 0) end
-  stopped = ok and stopped
-  if not stopped then clench.log.warning(("%s: the hand at %s has not confirmed that its motors are off"):format(subject, self.port.name)) end
-  return stopped
-end
+function Barrett:close() return device.stop_and_close(self, try_stop, "T\r") end
 
 Barrett.__close = function(self) self:close() end
-Barrett.__gc = function(self) if not self.is_closed then device.send_last(self.port, "T\r") end end
+Barrett.__gc = function(self) device.send_last(self, "T\r") end
 
 --- Driver of a Barrett hand BH8-262. Angles are checked before they are sent. When the program ends, the motors are switched off; but if it is
 --- killed, the hand stays as it is, because it has no watchdog.
@@ -183,7 +185,7 @@ Barrett.__gc = function(self) if not self.is_closed then device.send_last(self.p
 ---@option baud? integer [bit/s, 1 to 10000000] = 9600
 ---@option timeout? number [s, > 0, <= 3600] = 0.5  for replies to queries and settings
 ---@option move_timeout? number [s, > 0, <= 3600] = 20  for the ends of motions
----@option attempts? integer [1 to 1000] = 10  maximum number of attempts to get a correct reply
+---@option attempts? integer [1 to 1000] = 100  maximum number of attempts to get a correct reply; ten if the hand sends nothing
 ---@return barrett hand # `initialize`, `move`, `read`, `open`, `close_fingers`, `home`, `increment`, `torque`, `stop`, `breakaways`, `close`
 ---@effect edits
 --- > simulated = clench.devices.simulated.barrett {}
@@ -195,9 +197,5 @@ Barrett.__gc = function(self) if not self.is_closed then device.send_last(self.p
 --- > barrett:move {9, 0, 0, 0}  --> error: spread: expected 0 to 3.14159 rad, got 9
 return function(options)
   local o = new_options(subject, options)
-  local given, baud = o:raw "port", o:get "baud"
-  local hand = {timeout = o:get "timeout", move_timeout = o:get "move_timeout", attempts = o:get "attempts"}
-  o:done()
-  hand.port, hand.owns_port = device.port_of(subject, given, baud), type(given) == "string"
-  return setmetatable(hand, Barrett)
+  return setmetatable(device.new(subject, o, {max_silent = 10, move_timeout = o:get "move_timeout"}), Barrett)
 end

@@ -32,7 +32,28 @@ function calibration.dof(subject, value, d, raw)
     if not is_finite(x) then raise(("%s: sensor %d: expected a finite number, got %s"):format(subject, s, described(x))) end
     sum = sum + slope * x
   end
+  if not is_finite(sum) then raise(("%s: DOF %d: expected a finite value, got %s"):format(subject, d, described(sum))) end
   return sum
+end
+
+--- The option `dofs`: pairs {DOF of the hand, row of the calibration}, in the order of DOFs.
+---@param count integer  of DOFs
+---@param rows integer  of the calibration
+---@return integer[][]
+function calibration.read_map(o, count, rows)
+  local given, out = o:raw "dofs", {}
+  if given == nil then
+    for d = 1, math.min(count, rows) do out[d] = {d, d} end
+    return out
+  end
+  if type(given) ~= "table" or next(given) == nil then o:expected("dofs", "rows of the calibration by the numbers of DOFs", given) end
+  for d, row in pairs(given) do
+    if math.type(d) ~= "integer" or d < 1 or d > count then o:expected("dofs", ("numbers of DOFs from 1 to %d"):format(count), d) end
+    if math.type(row) ~= "integer" or row < 1 or row > rows then o:expected(("dofs[%d]"):format(d), ("a row from 1 to %d"):format(rows), row) end
+    out[#out + 1] = {d, row}
+  end
+  table.sort(out, function(a, b) return a[1] < b[1] end)
+  return out
 end
 
 return calibration

@@ -12,23 +12,18 @@ local record_size = 24  -- the echo, 22 sensors, and a byte 0
 
 function Glove:__tostring() return "CyberGlove at " .. self.port.name end
 
--- the answer to a command, up to its byte 0; nil and the reason if there is none
-local function exchange(self, command)
+-- the value in the answer to a command, which ends in a byte 0; nil and the reason if there is none. parse: returns nil if the answer is damaged
+local function exchange(self, command, parse)
   self.port:discard()
   local ok, why = self.port:write(command, self.timeout)
   if not ok then return nil, why end
-  return self.port:read_until("\0", self.timeout)
+  local answer
+  answer, why = device.read_until(self.port, "\0", self.timeout)
+  if not answer then return nil, why end
+  return parse(answer), "damaged"
 end
 
-local function ask(self, command, parse)
-  for _ = 1, self.attempts do
-    local answer, why = exchange(self, command)
-    local value = answer and parse(answer)
-    if value then return value end
-    if why == "closed" or why == "unplugged" then device.fail(subject, self.port, why, command) end
-  end
-  device.fail(subject, self.port, "timeout", command)
-end
+local function ask(self, command, parse) return device.ask(self, command, exchange, command, parse) end
 
 -- sensors of a record; nil if it is damaged
 local function parse_record(record)
@@ -78,9 +73,7 @@ function Glove:read_dofs(calibration, limits)
 end
 
 --- Closes the port.
-function Glove:close()
-  if self.owns_port then self.port:close() end
-end
+function Glove:close() device.close(self) end
 
 Glove.__close = function(self) self:close() end
 
@@ -89,7 +82,7 @@ Glove.__close = function(self) self:close() end
 ---@option port string|port  path of its serial line, or a port
 ---@option baud? integer [bit/s, 1 to 10000000] = 38400
 ---@option timeout? number [s, > 0, <= 3600] = 0.5  for an answer
----@option attempts? integer [1 to 1000] = 10  maximum number of attempts to get a correct answer
+---@option attempts? integer [1 to 1000] = 100  maximum number of attempts to get a correct answer; ten if the glove sends nothing
 ---@option readings? integer [1 to 99] = 1  records of which each value is the median
 ---@return cyberglove glove # `read`, `read_dofs`, `is_ready`, `close`
 ---@effect edits
@@ -101,9 +94,5 @@ Glove.__close = function(self) self:close() end
 --- > raw[2], #raw  --> 20, 22
 return function(options)
   local o = new_options(subject, options)
-  local given, baud = o:raw "port", o:get "baud"
-  local glove = {timeout = o:get "timeout", attempts = o:get "attempts", readings = o:get "readings"}
-  o:done()
-  glove.port, glove.owns_port = device.port_of(subject, given, baud), type(given) == "string"
-  return setmetatable(glove, Glove)
+  return setmetatable(device.new(subject, o, {max_silent = 10, readings = o:get "readings"}), Glove)
 end

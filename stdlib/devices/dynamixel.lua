@@ -18,6 +18,7 @@ local registers = {
 local modes = {current = 0, velocity = 1, position = 3, extended_position = 4, current_position = 5, pwm = 16}
 local ticks_per_turn, center = 4096, 2048
 local velocity_unit = 0.229 * 2 * math.pi / 60  -- of a tick [rad/s]
+local watchdog_unit = 0.02                      -- [s]
 
 function Bus:__tostring() return ("%d Dynamixel motors at %s"):format(#self.ids, self.port.name) end
 
@@ -27,7 +28,7 @@ local function ticks_of(radians) return math.floor(radians * ticks_per_turn / (2
 local function format_of(size) return size == 1 and "<i1" or size == 2 and "<i2" or "<i4" end
 local function unsigned_format_of(size) return size == 1 and "<I1" or size == 2 and "<I2" or "<I4" end
 
--- Is it too late to go on with what was received? A device that never pauses would keep the exchange busy.
+-- Is it too late to continue with the bytes that have arrived? A device that never pauses would keep the exchange busy.
 local function is_late(self, last) return loop.time() > last + self.timeout end
 
 -- Sends a packet, and collects answers by id until all ids have answered or the timeout has passed.
@@ -72,23 +73,21 @@ local function exchange_fast(self, bytes, ids, size)
   end
 end
 
-local function check_lost(self, why, doing)
-  if why == "closed" or why == "unplugged" then device.fail(subject, self.port, why, doing) end
+local wrong_checksum = 3  -- error code of a motor that has received a damaged packet
+
+-- the answer of one motor to an instruction; nil and the reason if there is none, or if the motor has not understood it
+local function exchange_one(self, id, bytes)
+  local answers, why = exchange(self, bytes, {id})
+  local answer = answers and answers[id]
+  if answer and answer.error & 0x7F ~= wrong_checksum then return answer end
+  return nil, why ~= "timeout" and why or "damaged"  -- a damaged request has no answer either
 end
 
 -- sends one instruction to one motor, until it is answered
 local function ask(self, id, instruction, parameters, doing)
-  for _ = 1, self.attempts do
-    local answers, why = exchange(self, packet.encode(id, instruction, parameters), {id})
-    check_lost(self, why, doing)
-    local answer = answers and answers[id]
-    if answer then
-      local code = answer.error & 0x7F
-      if code == 0 then return answer.parameters end
-      if code ~= 3 then raise(("%s: motor %d reports error %d: %s"):format(subject, id, code, doing), "stale") end  -- 3: its checksum
-    end
-  end
-  device.fail(subject, self.port, "timeout", ("motor %d: %s"):format(id, doing))
+  local answer = device.ask(self, ("motor %d: %s"):format(id, doing), exchange_one, id, packet.encode(id, instruction, parameters))
+  local code = answer.error & 0x7F
+  if code ~= 0 then raise(("%s: motor %d reports error %d: %s"):format(subject, id, code, doing), "stale") end
 end
 
 local function register_of(name) return table.unpack(registers[name] or raise(("%s: there is no register '%s'"):format(subject, tostring(name)))) end
@@ -109,7 +108,7 @@ local function read_all(self, name)
   for attempt = 1, self.attempts do
     -- on a noisy line single packets may arrive when one for all motors does not
     local answers, why = ask_some(self, missing, address, size, self.is_fast and attempt % 2 == 1)
-    check_lost(self, why, "reading " .. name)
+    device.check_lost(self, why)
     local still = {}
     for _, id in ipairs(missing) do
       local answer = answers and answers[id]
@@ -122,15 +121,15 @@ local function read_all(self, name)
     missing = still
     if #missing == 0 then return values end
   end
-  device.fail(subject, self.port, "timeout", ("motors %s: reading %s"):format(table.concat(missing, ", "), name))
+  device.fail(self, "timeout", ("motors %s: reading %s"):format(table.concat(missing, ", "), name))
 end
 
--- do all motors answer fast sync reads? Motors with old firmware do not
+-- Do all motors answer fast sync reads? Those with old firmware do not.
 local function answers_fast(self)
   local address, size = register_of "present_position"
   for _ = 1, 3 do
     local answers, why = ask_some(self, self.ids, address, size, true)
-    check_lost(self, why, "fast sync read")
+    device.check_lost(self, why)
     if answers and next(answers) then return true end
   end
   return false
@@ -142,7 +141,7 @@ local function write_all(self, name, values)
   local list = {string.pack("<I2 I2", address, size)}
   for _, id in ipairs(self.ids) do list[#list + 1] = string.char(id) .. string.pack(format_of(size), values[id]) end
   local ok, why = self.port:write(packet.encode(packet.broadcast, "sync_write", table.concat(list)), self.timeout)
-  if not ok then device.fail(subject, self.port, why, "writing " .. name) end
+  if not ok then device.fail(self, why, "writing " .. name) end
 end
 
 -- the same, read back and repeated until all motors have the value
@@ -154,7 +153,7 @@ local function set_all(self, name, values)
     if same then return end
     self:reset_watchdog()
   end
-  device.fail(subject, self.port, "timeout", "writing " .. name)
+  device.fail(self, "timeout", "writing " .. name)
 end
 
 local function for_all(self, value)
@@ -222,20 +221,37 @@ local function torque_off(ids)
   return packet.encode(packet.broadcast, "sync_write", table.concat(list))
 end
 
---- Switches the torque off and closes the port.
-function Bus:close()
-  device.send_last(self.port, torque_off(self.ids))
-  if self.owns_port then self.port:close() end
+-- attempts to switch the torque off, each for the motors that have not confirmed an earlier one
+local function new_stop(self)
+  local left = self.ids
+  local address, size = register_of "torque_enable"
+  return function()
+    local ok, why = self.port:write(torque_off(left), self.timeout)
+    if not ok then return false, why end
+    local answers
+    answers, why = ask_some(self, left, address, size, false)
+    local still = {}
+    for _, id in ipairs(left) do
+      local answer = answers and answers[id]
+      if not answer or answer.parameters ~= "\0" then still[#still + 1] = id end
+    end
+    left = still
+    return #left == 0, why
+  end
 end
 
+--- Switches the torque off and closes the port. A stop that a motor does not confirm is repeated for at most three seconds.
+---@return boolean stopped  false: some motor has not confirmed it
+function Bus:close() return device.stop_and_close(self, new_stop(self), torque_off(self.ids)) end
+
 Bus.__close = function(self) self:close() end
-Bus.__gc = function(self) device.send_last(self.port, torque_off(self.ids)) end
+Bus.__gc = function(self) device.send_last(self, torque_off(self.ids)) end
 
 local function check_ids(o)
   local ids, seen = o:raw "ids", {}
   if type(ids) ~= "table" or #ids == 0 or #ids > 252 then o:expected("ids", "a list of 1 to 252 numbers", ids) end
   for i, id in ipairs(ids) do
-    if math.type(id) ~= "integer" or id < 0 or id > 252 or seen[id] then o:expected(("ids[%d]"):format(i), "another number from 0 to 252", id) end
+    if math.type(id) ~= "integer" or id < 0 or id > 252 or seen[id] then o:expected(("ids[%d]"):format(i), "a number from 0 to 252, different from the others", id) end
     seen[id] = true
   end
   return {table.unpack(ids)}
@@ -263,6 +279,9 @@ local function connect(self)
   if self.is_fast == nil then self.is_fast = answers_fast(self) end
   local low, high = read_all(self, "min_position"), read_all(self, "max_position")
   for i, id in ipairs(self.ids) do
+    if low[id] < 0 or high[id] >= ticks_per_turn or low[id] > high[id] then
+      raise(("%s: motor %d: expected limits from 0 to %d, got %d to %d"):format(subject, id, ticks_per_turn - 1, low[id], high[id]), "stale")
+    end
     self.names[i], self.low[i], self.high[i] = "motor " .. id, radians_of(low[id]), radians_of(high[id])
   end
   self:reset_watchdog()
@@ -298,15 +317,12 @@ end
 --- > bus:write_positions {0.5, 4}  --> error: motor 2: expected -3.14159 to 3.14006 rad, got 4
 return function(options)
   local o = new_options(subject, options)
-  local given, baud = o:raw "port", o:get "baud"
   local mode = o:raw "mode"
+  if mode ~= nil and not modes[mode] then o:expected("mode", "the name of an operating mode", mode) end
   local bus = {ids = check_ids(o), names = {}, low = {}, high = {}, packet = packet_of, mode = mode,
                is_fast = o:get "fast", current = o:get "current", velocity = o:get "velocity",
-               watchdog = math.ceil(o:get "watchdog" / 0.02), timeout = o:get "timeout", attempts = o:get "attempts"}
-  o:done()
-  if mode ~= nil and not modes[mode] then o:expected("mode", "the name of an operating mode", mode) end
-  bus.port, bus.owns_port = device.port_of(subject, given, baud), type(given) == "string"
-  setmetatable(bus, Bus)
+               watchdog = math.ceil(o:get "watchdog" / watchdog_unit)}
+  bus = setmetatable(device.new(subject, o, bus), Bus)
   connect(bus)
   return bus
 end

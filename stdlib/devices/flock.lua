@@ -8,7 +8,6 @@ local Flock = class "flock"
 
 local inch = 0.0254
 local range = 36 * inch  -- of a full word of a position [m]
-local modes = {matrix = {letter = "Z", words = 12}, angles = {letter = "Y", words = 6}}
 
 function Flock:__tostring() return ("Flock of %d birds at %s"):format(self.birds, self.port.name) end
 
@@ -37,25 +36,20 @@ local function find_record(received, size)
   return nil, at and received:sub(at) or ""
 end
 
--- a record of a bird
+-- the words of a record of a bird; nil and the reason if there is none
 local function request(self, bird)
-  local size = 2 * self.mode.words
-  for _ = 1, self.attempts do
-    self.port:discard()
-    local ok, why = self.port:write(address(bird) .. "B", self.timeout)
-    local last, received = loop.time() + self.timeout, ""
-    while ok do
-      local more
-      more, why = self.port:read_some(math.max(0, last - loop.time()))
-      if not more then break end
-      local words
-      words, received = find_record(received .. more, size)
-      if words then return words end
-      if loop.time() > last + self.timeout then break end  -- of a device that never pauses
-    end
-    if why == "closed" or why == "unplugged" then device.fail(subject, self.port, why, "bird " .. bird) end
-  end
-  device.fail(subject, self.port, "timeout", "bird " .. bird)
+  self.port:discard()
+  local ok, why = self.port:write(address(bird) .. "B", self.timeout)
+  if not ok then return nil, why end
+  local last, received, words, more = loop.time() + self.timeout, "", nil, nil
+  repeat
+    local is_silent = not more
+    more, why = self.port:read_some(math.max(0, last - loop.time()))
+    if not more then return nil, why == "timeout" and not is_silent and "damaged" or why end
+    words, received = find_record(received .. more, 2 * self.mode.words)
+    if words then return words end
+  until loop.time() > last + self.timeout  -- of a device that never pauses
+  return nil, "damaged"
 end
 
 local function position_of(words) return {words[1] * range / 32768, words[2] * range / 32768, words[3] * range / 32768} end
@@ -84,15 +78,15 @@ local function pose_of_angles(words)
   return clench.pose {xyz = position_of(words), rpy = {angle(words[6]), angle(words[5]), angle(words[4])}}
 end
 
+local modes = {matrix = {letter = "Z", words = 12, pose = pose_of_matrix}, angles = {letter = "Y", words = 6, pose = pose_of_angles}}
+
 local function read_bird(self, bird)
-  for _ = 1, self.attempts do
+  local doing = "bird " .. bird
+  return device.ask(self, doing, function()
     local records = {}
-    for i = 1, self.readings do records[i] = request(self, bird) end
-    local words = device.median(records)
-    local pose = self.mode == modes.matrix and pose_of_matrix(words) or self.mode == modes.angles and pose_of_angles(words)
-    if pose then return pose end
-  end
-  device.fail(subject, self.port, "timeout", "bird " .. bird)
+    for i = 1, self.readings do records[i] = device.ask(self, doing, request, bird) end
+    return self.mode.pose(device.median(records))
+  end)
 end
 
 --- Poses of the birds in the frame of the transmitter.
@@ -104,15 +98,13 @@ function Flock:read()
 end
 
 --- Closes the port.
-function Flock:close()
-  if self.owns_port then self.port:close() end
-end
+function Flock:close() device.close(self) end
 
 Flock.__close = function(self) self:close() end
 
 local function write(self, bytes, doing)
   local ok, why = self.port:write(bytes, self.timeout)
-  if not ok then device.fail(subject, self.port, why, doing) end
+  if not ok then device.fail(self, why, doing) end
 end
 
 local function configure(self)
@@ -130,7 +122,7 @@ end
 ---@option mode? "matrix"|"angles" = "matrix"  records of rotation matrices or of angles
 ---@option baud? integer [bit/s, 1 to 10000000] = 115200
 ---@option timeout? number [s, > 0, <= 3600] = 0.2  for a record
----@option attempts? integer [1 to 1000] = 20  maximum number of attempts to get a correct record
+---@option attempts? integer [1 to 1000] = 20  maximum number of attempts to get a correct record; ten if the flock sends nothing
 ---@option readings? integer [1 to 99] = 1  records of which each word is the median: no checksum protects them
 ---@return flock flock # `read`, `close`
 ---@effect edits
@@ -141,12 +133,8 @@ end
 --- > (pose.position - clench.vec3(0.3, 0.1, 0.2)):norm() < 3e-4  --> true
 return function(options)
   local o = new_options(subject, options)
-  local given, baud = o:raw "port", o:get "baud"
-  local flock = {birds = o:get "birds", mode = modes[o:get "mode"], timeout = o:get "timeout",
-                 attempts = o:get "attempts", readings = o:get "readings"}
-  o:done()
-  flock.port, flock.owns_port = device.port_of(subject, given, baud), type(given) == "string"
-  setmetatable(flock, Flock)
+  local fields = {max_silent = 10, birds = o:get "birds", mode = modes[o:get "mode"], readings = o:get "readings"}
+  local flock = setmetatable(device.new(subject, o, fields), Flock)
   configure(flock)
   return flock
 end

@@ -14,32 +14,30 @@ local function collides(world, hand, bodies)
   return false
 end
 
--- Between a free value, 0, and one that collides, 1: sets the last free value of set(t).
-local function bisect(set, is_free)
-  local free, blocked = 0, 1
-  for _ = 1, bisections do
-    local middle = (free + blocked) / 2
-    set(middle)
-    if is_free() then free = middle else blocked = middle end
-  end
-  set(free)
-end
-
--- Places the palm: "free", "contact" if it was backed off, or "failed".
-local function place_palm(world, hand, pose, step, tries)
-  local function is_free() return not collides(world, hand, {hand.base}) end
-  hand.pose = pose
+-- Retreats from a collision until it just ends: set(x) sets the retreat, from 0 to max_steps. Returns "free" if there is no collision, "contact", or "failed".
+local function retreat(set, is_free, max_steps)
   if is_free() then return "free" end
-  local back = hand.approach.direction * -step
-  for i = 1, tries do
-    local function set(t) hand.pose = clench.pose {xyz = back * (i - t)} * pose end
-    set(0)
+  for step = 1, max_steps do
+    set(step)
     if is_free() then
-      bisect(set, is_free)
+      local free, blocked = step, step - 1
+      for _ = 1, bisections do
+        local middle = (free + blocked) / 2
+        set(middle)
+        if is_free() then free = middle else blocked = middle end
+      end
+      set(free)
       return "contact"
     end
   end
   return "failed"
+end
+
+-- places the palm; backs it off if it collides
+local function place_palm(world, hand, pose, step, tries)
+  local back = hand.approach.direction * -step
+  hand.pose = pose
+  return retreat(function(x) hand.pose = clench.pose {xyz = back * x} * pose end, function() return not collides(world, hand, {hand.base}) end, tries)
 end
 
 -- the DOFs by which a chain opens, each with its sign
@@ -65,20 +63,11 @@ local function opened(dofs, limits, openings, angle)
   return out
 end
 
--- Opens a colliding chain until it only just touches: "free", "contact" or "failed".
+-- opens a chain that collides
 local function open_chain(world, hand, chain, step)
-  local function is_free() return not collides(world, hand, chain.links) end
-  if is_free() then return "free" end
   local start, limits, openings = hand.dofs, hand.dof_limits, openings_of(hand, chain)
-  for i = 1, #openings > 0 and max_openings or 0 do
-    local function set(t) hand:set_dofs(opened(start, limits, openings, step * (i - t))) end
-    set(0)
-    if is_free() then
-      bisect(set, is_free)
-      return "contact"
-    end
-  end
-  return "failed"
+  local function set(x) hand:set_dofs(opened(start, limits, openings, step * x)) end
+  return retreat(set, function() return not collides(world, hand, chain.links) end, #openings > 0 and max_openings or 0)
 end
 
 --- Moves a hand according to the readings of a tracker and a glove, which agree with the world only roughly: a colliding palm is backed off against

@@ -22,7 +22,7 @@ function gripper.wait_for(self, doing, read, condition)
   while true do
     local state = read(self)
     if condition(state) then return state end
-    if loop.time() > last then device.fail(self.subject, self.port, "timeout", doing) end
+    if loop.time() > last then device.fail(self, "timeout", doing) end
     loop.sleep(self.poll)
   end
 end
@@ -37,36 +37,27 @@ function gripper.byte_of(subject, name, value, default)
   return math.floor(255 * value + 0.5)
 end
 
--- the frame that stops the fingers
-local function last_frame(self)
-  local bytes = self:stopping()
-  return modbus.frame(string.pack(">B B I2 I2 B", self.slave, 16, request_address, #bytes // 2, #bytes) .. bytes)
-end
+local function stop_frame(self) return modbus.write_frame(self, request_address, self:stopping()) end
+local function try_stop(self, seconds) return modbus.try_write(self, request_address, self:stopping(), seconds) end
 
 --- Adds the common methods to a class whose method `stopping` returns the registers that stop the fingers.
 function gripper.complete(class)
   --- Stops the fingers.
   function class:stop() gripper.send(self, self:stopping()) end
 
-  --- Stops the fingers and closes the port.
-  function class:close()
-    device.send_last(self.port, last_frame(self))
-    if self.owns_port then self.port:close() end
-  end
+  --- Stops the fingers and closes the port. A stop that the gripper does not confirm is repeated for at most three seconds.
+  ---@return boolean stopped  false: the gripper has not confirmed it
+  function class:close() return device.stop_and_close(self, try_stop, stop_frame(self)) end
 
   class.__close = function(self) self:close() end
-  class.__gc = function(self) device.send_last(self.port, last_frame(self)) end
+  class.__gc = function(self) device.send_last(self, stop_frame(self)) end
 end
 
---- Reads the options that all grippers have, and opens the port.
----@param o table  options of the caller, which has read all others
+--- As device.new, with the options that all grippers have.
 function gripper.new(subject, o, fields)
-  local given, baud = o:raw "port", o:get "baud"
-  fields.subject, fields.slave, fields.timeout = subject, o:get "slave", o:get "timeout"
-  fields.move_timeout, fields.poll, fields.attempts = o:get "move_timeout", o:get "poll", o:get "attempts"
-  o:done()
-  fields.port, fields.owns_port = device.port_of(subject, given, baud), type(given) == "string"
-  return fields
+  fields.slave, fields.move_timeout, fields.poll = o:get "slave", o:get "move_timeout", o:get "poll"
+  fields.max_silent = 20  -- half of the requests may be damaged, and are not answered
+  return device.new(subject, o, fields)
 end
 
 return gripper

@@ -9,7 +9,7 @@ local Mirror = class "mirror"
 
 function Mirror:__tostring() return ("mirror of %s at %s"):format(self.hand.name, tostring(self.device)) end
 
--- where the real hand is; what a driver returns is not trusted
+-- values of the real hand; those that a driver returns are checked
 local function read_device(self)
   local device = self.device
   local method = device.read_positions and "read_positions" or "read"
@@ -25,7 +25,7 @@ local function read_device(self)
   return values
 end
 
--- Where the real hand is when the first values are sent. From far beyond the limits no value fulfills both the limits and the largest speed.
+-- Values of the real hand before the first ones are sent. If it is far beyond the limits, no value can fulfill both the limits and the maximum speed.
 local function start_of(self, reach)
   local values = read_device(self)
   for i, value in ipairs(values) do
@@ -101,14 +101,14 @@ local function read_dofs(o, hand)
   for i = 1, #(given or hand.dofs) do
     local d = given and given[i] or i
     if math.type(d) ~= "integer" or d < 1 or d > #hand.dofs or seen[d] then
-      o:expected(("dofs[%d]"):format(i), ("another number from 1 to %d"):format(#hand.dofs), d)
+      o:expected(("dofs[%d]"):format(i), ("a number from 1 to %d, different from the others"):format(#hand.dofs), d)
     end
     out[i], seen[d] = d, true
   end
   return out
 end
 
--- for each value of the device
+-- ranges of the values of the device
 local function read_limits(o, mirror)
   local given, out = o:raw "limits", {}
   if given ~= nil and (type(given) ~= "table" or #given ~= #mirror.dofs) then o:expected("limits", ("a list of %d ranges {low, high}"):format(#mirror.dofs), given) end
@@ -140,7 +140,7 @@ end
 ---@return mirror mirror # `pull`, `push`
 ---@effect reads
 --- > device = {read = function() return {0, 1, 1, 1} end, move = function() end}
---- > clench.devices.mirror {hand = hand, device = device, dofs = {1, 1}}  --> error: dofs[2] must be another number
+--- > clench.devices.mirror {hand = hand, device = device, dofs = {1, 1}}  --> error: dofs[2] must be a number from 1 to 4, different from the others
 return function(options)
   local o = new_options(subject, options)
   local mirror = {hand = o:get "hand", device = o:raw "device", max_speed = o:get "max_speed", interval = o:get "interval"}

@@ -68,7 +68,7 @@ gripper.complete(Robotiq)
 ---@option timeout? number [s, > 0, <= 3600] = 0.1  for an answer
 ---@option move_timeout? number [s, > 0, <= 3600] = 10  for activation and motions
 ---@option poll? number [s, >= 0] = 0.02  between two queries for the end of a motion
----@option attempts? integer [1 to 1000] = 50  maximum number of attempts to get a correct answer
+---@option attempts? integer [1 to 1000] = 50  maximum number of attempts to get a correct answer; 20 if the gripper sends nothing
 ---@return robotiq gripper # `activate`, `move`, `read`, `stop`, `close`
 ---@effect edits
 --- > simulated = clench.devices.simulated.robotiq {}

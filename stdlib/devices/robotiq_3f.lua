@@ -29,12 +29,12 @@ local function send(self, ...) gripper.send(self, request(self, ...)) end
 
 local function read_status(self)
   local bytes = gripper.status(self, 8)
-  local first, met, fault = bytes:byte(1, 3)
+  local first, object_bits, fault = bytes:byte(1, 3)
   local status = {is_active = first & 1 == 1 and first >> 4 & 3 == 3, mode = first >> 1 & 3, is_moving = first >> 3 & 1 == 1 and first >> 6 == 0,
                   fault = fault & 0x0F, echo = {}, positions = {}, currents = {}, objects = {}}
   for i = 1, 4 do
     status.echo[i], status.positions[i], status.currents[i] = bytes:byte(3 * i + 1, 3 * i + 3)
-    status.objects[i] = met >> 2 * (i - 1) & 3
+    status.objects[i] = object_bits >> 2 * (i - 1) & 3
   end
   return status
 end
@@ -47,8 +47,8 @@ function Gripper:activate()
   gripper.wait_for(self, "activation", read_status, function(status) return status.is_active and status.mode == 0 end)
 end
 
-local function check_active(self, doing)
-  if not read_status(self).is_active then raise(("robotiq_3f:%s: the gripper is not active; call activate first"):format(doing), "stale") end
+local function check_active(self, method)
+  if not read_status(self).is_active then raise(("robotiq_3f:%s: the gripper is not active; call activate first"):format(method), "stale") end
 end
 
 --- Switches the fingers to a mode, for which they open.
@@ -97,9 +97,9 @@ end
 ---@return {closing: number[], objects: (string|boolean)[], currents: number[], is_moving: boolean, is_active: boolean, mode: string, fault: integer}
 function Gripper:read()
   local status = read_status(self)
-  local closing, met, currents = {}, {}, {}
-  for i = 1, 4 do closing[i], met[i], currents[i] = status.positions[i] / 255, objects[status.objects[i]] or false, status.currents[i] * 1e-4 end
-  return {closing = closing, objects = met, currents = currents, is_moving = status.is_moving, is_active = status.is_active, mode = mode_names[status.mode], fault = status.fault}
+  local closing, stopped_by, currents = {}, {}, {}
+  for i = 1, 4 do closing[i], stopped_by[i], currents[i] = status.positions[i] / 255, objects[status.objects[i]] or false, status.currents[i] * 1e-4 end
+  return {closing = closing, objects = stopped_by, currents = currents, is_moving = status.is_moving, is_active = status.is_active, mode = mode_names[status.mode], fault = status.fault}
 end
 
 function Gripper:stopping() return request(self, 0, 0, {}, 0, 0) end
@@ -116,7 +116,7 @@ gripper.complete(Gripper)
 ---@option timeout? number [s, > 0, <= 3600] = 0.1  for an answer
 ---@option move_timeout? number [s, > 0, <= 3600] = 20  for activation, modes and motions
 ---@option poll? number [s, >= 0] = 0.02  between two queries for the end of a motion
----@option attempts? integer [1 to 1000] = 50  maximum number of attempts to get a correct answer
+---@option attempts? integer [1 to 1000] = 50  maximum number of attempts to get a correct answer; 20 if the gripper sends nothing
 ---@return robotiq_3f gripper # `activate`, `set_mode`, `move`, `read`, `stop`, `close`
 ---@effect edits
 --- > simulated = clench.devices.simulated.robotiq_3f {}

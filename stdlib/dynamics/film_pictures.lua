@@ -38,11 +38,24 @@ local function no_ffmpeg(program)
   end
 end
 
-local function encode(program, frames, count, rate, path)
+-- a hidden name beside a film; it begins with neither an option of a program nor a protocol
+local function hidden_name(path, stem)
+  local folder = path:match "^.*/" or ""
+  return (folder:sub(1, 1) == "/" and "" or "./") .. folder .. "." .. stem:match "[^/]*$" .. ".mp4"
+end
+
+-- writes a film from the pictures; an existing one stays until it is complete
+local function encode(program, stem, count, rate, path)
+  local draft = hidden_name(path, stem)
+  local _ <close> = setmetatable({}, {__close = function() os.remove(draft) end})
   local command = ("%s -y -loglevel error -framerate %.6g -i %s -frames:v %d -c:v libx264 -pix_fmt yuv420p -vf %s %s"):format(
-    quoted(program), rate, quoted(frames .. "%04d.png"), count, quoted "pad=ceil(iw/2)*2:ceil(ih/2)*2", quoted(path))
+    quoted(program), rate, quoted(stem .. "%04d.png"), count, quoted "pad=ceil(iw/2)*2:ceil(ih/2)*2", quoted(draft))
   local ok, _, code = os.execute(command)
   if not ok then raise(("recording:save: '%s' could not write '%s' and ended with code %s"):format(program, path, tostring(code))) end
+  local film <close> = io.open(draft, "rb")
+  if not (film and film:read(1)) then raise(("recording:save: '%s' has not written '%s'"):format(program, path)) end
+  local moved, problem = os.rename(draft, path)
+  if not moved then raise(("recording:save: %s: the film cannot be written: %s"):format(path, problem:gsub("^.*: ", ""))) end
 end
 
 -- times between frames, in hundredths of a second

@@ -38,6 +38,7 @@ function Recording:save(path, options)
     raise("recording:save: expected a name that ends in .html, .gif, .mp4 or .png, got " .. described(path))
   end
   if #self.times == 0 then raise "recording:save: it is empty: the world has not run since it was created" end
+  if ending ~= "png" then clench.files.check_writable(path) end
   local write = require("clench.dynamics.film_" .. writers[ending])
   return write(self, path, ending, optional_table("recording:save", options))
 end

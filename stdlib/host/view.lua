@@ -55,6 +55,7 @@ local function run(root, folder, package, unit, strict, ...)
   local size = read_size(given.size)
   check_screenshot(given.screenshot)
   local session = clench.session()
+  require "clench.host.help".install()
   open_file(session, given, said)
   local options = {session = session, size = size}
   local shown = given.screenshot and clench.view.offscreen(options) or clench.view.open(session, {size = size})

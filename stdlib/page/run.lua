@@ -9,22 +9,27 @@ local function kind_of(body)
   return body.kind == "link" and "link" or body.kind
 end
 
+-- the number of the part for a body: one for each name, kind and mesh, since a body may be removed and another one added under its name
+local function part_of(body, parts, numbers, list)
+  local key, mesh = body.name .. "\0" .. body.kind, body.visual_mesh
+  numbers[key] = numbers[key] or {}
+  for _, known in ipairs(numbers[key]) do
+    if known.mesh == mesh then return known.number end
+  end
+  parts[#parts + 1] = {name = body.name, kind = kind_of(body), mesh = list:add(body)}
+  table.insert(numbers[key], {mesh = mesh, number = #parts})
+  return #parts
+end
+
 --- Data of a page: the parts of all frames, and seven numbers per part and frame, nan if a part is absent.
 ---@param recording table  `times`, and `each`, which calls a function with the world of each frame
 ---@return table data, string[] notes
 function run.data_of(recording)
-  local list, parts, number_of, frames = meshes.new(), {}, {}, {}
+  local list, parts, numbers, frames = meshes.new(), {}, {}, {}
   recording:each(function(world, frame)
     local poses = {}
     for _, body in ipairs(world.bodies) do
-      if body.visual_mesh then
-        local key = body.name .. "\0" .. body.kind
-        if not number_of[key] then
-          parts[#parts + 1] = {name = body.name, kind = kind_of(body), mesh = list:add(body)}
-          number_of[key] = #parts
-        end
-        poses[number_of[key]] = meshes.numbers(body.pose)
-      end
+      if body.visual_mesh then poses[part_of(body, parts, numbers, list)] = meshes.numbers(body.pose) end
     end
     frames[frame] = poses
   end)

@@ -2,7 +2,6 @@ local begin_connect = require "clench.begin_connect"
 local check = require "clench.port.check"
 local loop = clench.loop
 local new_port = require "clench.port.port"
-local on_behalf_of = require "clench.on_behalf_of"
 local raise = require "clench.raise"
 local resolve = require "clench.resolve_host"
 

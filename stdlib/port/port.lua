@@ -159,10 +159,17 @@ end
 local function put(self, bytes)
   if self.check_sent then self.check_sent(bytes) end
   if self.on_sent then self.on_sent(bytes) end
+  self.put = self.put + #bytes
+  local count = 0
+  if self.queued == 0 then
+    count = self.stream:write(bytes, 0)
+    self.sent = self.sent + count
+    if count == #bytes then return end
+  end
   local queue = self.queue
-  queue.last = queue.last + 1
+  queue.last, queue.from = queue.last + 1, self.queued == 0 and count or queue.from
   queue[queue.last] = bytes
-  self.queued, self.put = self.queued + #bytes, self.put + #bytes
+  self.queued = self.queued + #bytes - count
   if not self.flushing then
     flush(self)
     if self.queued > 0 then self.flushing = loop.on(self.stream:write_descriptor(), function() flush(self) end, "writable") end

@@ -6,7 +6,7 @@ local arguments = {}
 
 local types = {number = true, integer = true, string = true, boolean = true, table = true, pose = true, vec3 = true, body = true, robot = true, any = true}
 local command_fields = {name = true, label = true, shortcut = true, menu = true, section = true, enabled = true, run = true, parameters = true, reads = true, script = true, replace = true, long = true}
-local known_fields = {name = true, type = true, unit = true, min = true, max = true, default = true, optional = true, text = true, choices = true, in_dialog = true}
+local known_fields = {name = true, type = true, unit = true, min = true, max = true, default = true, optional = true, text = true, choices = true, hint = true, in_dialog = true}
 
 -- "ctrl+shift+s": modifiers in this order and a key, in lower case
 local function check_shortcut(command)
@@ -199,10 +199,13 @@ function arguments.find_several(session, address)
   return {table.unpack(session.selection)}
 end
 
---- The bodies and robots of a list of addresses.
+--- The bodies and robots of a list of addresses, which is not longer than the list of all of them.
 ---@param name string  of the argument, for errors
 function arguments.find_all(session, name, addresses)
   if #addresses == 0 and next(addresses) ~= nil then raise(("session: %s: expected a list, got %s"):format(name, described(addresses))) end
+  local world = session.world or raise "session: no world is open"
+  local count = #world.bodies + #world.robots
+  if #addresses > count then raise(("session: %s: expected at most %d addresses, of different bodies and robots, got %d"):format(name, count, #addresses)) end
   local found = {}
   for i, address in ipairs(addresses) do found[i] = arguments.find(session, address) end
   return found

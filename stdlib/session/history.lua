@@ -13,6 +13,14 @@ local function alive(list, thing)
   end
 end
 
+-- The first robot with fingers; an arm has a single chain. Otherwise the first robot.
+local function first_hand(world)
+  for _, robot in ipairs(world.robots) do
+    if #robot.chains > 1 then return robot end
+  end
+  return world.robots[1]
+end
+
 --- The present state of the session, before a command changes it.
 function history.state_of(session)
   return {world = session.world, clone = session.world and session.world:clone(), hand = session.hand, object = session.object, path = session.path,
@@ -25,17 +33,17 @@ function history.set_state(session, state)
   session.selection, session.stack = {table.unpack(state.selection)}, {table.unpack(state.stack)}
 end
 
---- Opens a world; its first robot and object become the current ones.
+--- Opens a world; its first hand and object become the current ones.
 function history.take(session, world)
   session.world, session.selection, session.stack = world, {}, {}
-  session.hand, session.object = world.robots[1], world.objects[1]
+  session.hand, session.object = first_hand(world), world.objects[1]
 end
 
 --- Removes bodies and robots that are no longer in the world from hand, object and selection.
 function history.refresh(session)
   local world = session.world
   if not world then return end
-  session.hand = session.hand and alive(world.robots, session.hand) or world.robots[1]
+  session.hand = session.hand and alive(world.robots, session.hand) or first_hand(world)
   session.object = session.object and alive(world.objects, session.object) or world.objects[1]
   local kept = {}
   for _, item in ipairs(session.selection) do

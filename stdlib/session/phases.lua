@@ -17,6 +17,7 @@ local kinds = {
 --- Raises an error if a list of phases is not valid.
 ---@param subject string  for the message
 function phases.check(subject, list)
+  if type(list) ~= "table" or #list == 0 and next(list) ~= nil then raise(("%s: phases: expected a list, got %s"):format(subject, described(list))) end
   for i, phase in ipairs(list) do
     local kind = type(phase) == "table" and kinds[phase.kind]
     if not kind then

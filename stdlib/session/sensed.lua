@@ -1,7 +1,9 @@
 --- The simulated hand of a session and its devices: a glove and a tracker move the hand; the real hand and the simulated one follow each other.
+local birds = require "clench.session.birds"
 local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local raise = require "clench.raise"
+local real_hands = require "clench.session.real_hands"
 local sensors = require "clench.session.sensors"
 local sensed = {}
 
@@ -14,27 +16,33 @@ local function glove_dofs(session)
   return clench.devices.glove_map {hand = session.hand, calibration = state.calibration or session.hand.glove, dofs = state.dofs} (raw)
 end
 
--- pose of the hand's base by the reading of the tracker
-local function tracked_pose(session)
-  local reading = sensors.reading(session, "tracker")
-  local frame = session.sensors.frame or {}
-  return clench.devices.tracker_map {mode = frame.mode, base = frame.base, pose = frame.pose, mount = session.hand.tracker} (reading)
-end
-
---- Moves the current hand to the last readings: with a tracker and a glove as a fuzzy grasp, with one of them until contact.
----@return table result  of `clench.devices.fuzzy_grasp`, `hand:move_to` or `hand:move_dofs`
-function sensed.apply(session)
+-- moves the current hand; nil if no device does
+local function apply_to_hand(session)
   local hand = session.hand
-  local has_glove, has_tracker = session.sensors.glove ~= nil, session.sensors.tracker ~= nil
-  if has_glove and has_tracker then return clench.devices.fuzzy_grasp {hand = hand, pose = tracked_pose(session), dofs = glove_dofs(session)} end
-  if has_tracker then return hand:move_to(tracked_pose(session)) end
-  return hand:move_dofs(glove_dofs(session))
+  local bird = session.sensors.tracker and birds.of_hand(session)
+  if session.sensors.glove and bird then return clench.devices.fuzzy_grasp {hand = hand, pose = birds.pose(session, bird), dofs = glove_dofs(session)} end
+  if bird then return hand:move_to(birds.pose(session, bird)) end
+  if session.sensors.glove then return hand:move_dofs(glove_dofs(session)) end
 end
 
---- Condition of commands: is there a hand, and a glove or tracker with a reading?
+--- Moves what the devices move to the last readings: the current hand, with a tracker and a glove as a fuzzy grasp, with one of them until contact; and
+--- the bodies, robots and the camera that further birds move.
+---@return table result  of `clench.devices.fuzzy_grasp`, `hand:move_to` or `hand:move_dofs`; `birds`: those of other bodies and robots, by bird
+function sensed.apply(session)
+  local others = session.sensors.tracker and birds.of_others(session) or {}
+  local moved = {}
+  for _, bird in ipairs(others) do moved[bird] = birds.move(session, bird) end
+  local result = apply_to_hand(session) or {}
+  if next(moved) ~= nil then result.birds = moved end
+  return result
+end
+
+--- Condition of commands: is there a device with a reading, and something that it moves?
 function sensed.can_apply(session)
-  if not session.hand then return false, "no hand is current" end
   local has_glove, has_tracker = sensors.has_reading "glove"(session), sensors.has_reading "tracker"(session)
+  if has_tracker and #birds.of_others(session) > 0 then return true end
+  if not session.hand then return false, "no hand is current" end
+  if has_tracker and not has_glove and not birds.of_hand(session) then return false, "no bird of the tracker moves anything" end
   return has_glove or has_tracker, "neither a glove nor a tracker is connected"
 end
 
@@ -44,6 +52,11 @@ local function count(session)
   return (glove and glove.count or 0) + (tracker and tracker.count or 0)
 end
 
+local function report(session, problem)
+  if is_stopped(problem) then error(problem, 0) end
+  session:emit("diagnostic", {severity = "error", text = error_text(problem), count = 1})
+end
+
 -- one turn of `follow`; an error, such as a lost device, ends it, and becomes a diagnostic
 local function turn(session, following)
   local now = count(session)
@@ -51,9 +64,9 @@ local function turn(session, following)
   following.count = now
   local ok, problem = pcall(sensed.apply, session)
   if ok then return session:emit("changed", {following = true}) end
-  session:end_gesture()
-  if is_stopped(problem) then error(problem, 0) end
-  session:emit("diagnostic", {severity = "error", text = error_text(problem), count = 1})
+  report(session, problem)
+  local ended, why = pcall(session.end_gesture, session)
+  if not ended then report(session, why) end
 end
 
 --- The current hand follows the readings while `clench.loop` runs, until the gesture ends; it is one step of undo.
@@ -69,11 +82,30 @@ function sensed.follow(session)
   end)
 end
 
--- a mirror of the current hand; the device must have as many values as the hand has DOFs
-local function mirror_of(session, device, max_speed)
+-- DOFs of the hand that correspond to the values of the real one
+local function dofs_of(session, sensor)
   local given, expected = #sensors.reading(session, "hand"), #session.hand.dofs
-  if given ~= expected then raise(("session: the real hand has %d DOFs, and %s has %d"):format(given, session.hand.name, expected)) end
-  return clench.devices.mirror {hand = session.hand, device = device, max_speed = max_speed}
+  local dofs = sensor.options.dofs
+  if dofs and #dofs ~= given then raise(("session: the real hand has %d values, and was connected with %d dofs"):format(given, #dofs)) end
+  if not dofs and given ~= expected then
+    raise(("session: the real hand has %d DOFs, and %s has %d: connect it with dofs"):format(given, session.hand.name, expected))
+  end
+  if dofs then return dofs end
+  dofs = {}
+  for d = 1, expected do dofs[d] = d end
+  return dofs
+end
+
+-- a mirror of the current hand
+local function mirror_of(session, device, max_speed)
+  local sensor, hand = session.sensors.hand, session.hand
+  local dofs = dofs_of(session, sensor)
+  local options = {hand = hand, device = device, max_speed = max_speed, dofs = dofs, signs = sensor.options.signs, offsets = sensor.options.offsets}
+  -- numbers of DOFs are checked before their ranges are used
+  local mirror = clench.devices.mirror(options)
+  if not real_hands.drivers[sensor.options.driver].fractions then return mirror end
+  options.device = real_hands.scaled(device, hand, dofs)
+  return clench.devices.mirror(options)
 end
 
 --- Moves the simulated hand to where the real one is, until contact.

@@ -3,19 +3,24 @@
 local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local raise = require "clench.raise"
+local real_hands = require "clench.session.real_hands"
+local serial_lines = require "clench.session.serial_lines"
 local sensors = {}
 
 local timeout = 1  -- for an answer; the loop may be late while a frame is drawn [s]
 
--- baud: of the line; open(port): returns the driver; prepare(driver): before the first reading; read(driver); period: between readings [s]
+-- baud: of the line; open(port, options): returns the driver, and a function that prepares it before the first reading; read(driver); period: between
+-- readings [s]
 local kinds = {
-  glove = {baud = 38400, period = 0.02, open = function(port) return clench.devices.cyberglove {port = port, timeout = timeout} end,
-           prepare = function(glove) if not glove:is_ready() then raise "the glove is not ready" end end,
-           read = function(glove) return glove:read() end},
-  tracker = {baud = 115200, period = 0.02, open = function(port) return clench.devices.flock {port = port, timeout = timeout} end,
-             prepare = function() end, read = function(flock) return flock:read()[1] end},
-  hand = {baud = 9600, period = 0.1, open = function(port) return clench.devices.barrett {port = port, timeout = timeout} end,
-          prepare = function(hand) hand:initialize() end, read = function(hand) return hand:read() end},
+  glove = {baud = 38400, period = 0.02, read = function(glove) return glove:read() end,
+           open = function(port)
+             local glove = clench.devices.cyberglove {port = port, timeout = timeout}
+             return glove, function() if not glove:is_ready() then raise "the glove is not ready" end end
+           end},
+  tracker = {baud = 115200, period = 0.02, read = function(flock) return flock:read() end,
+             open = function(port, options) return clench.devices.flock {port = port, timeout = timeout, birds = options.birds}, function() end end},
+  hand = {period = 0.1, read = function(hand) return hand:read() end,
+          open = function(port, options) return real_hands.drivers[options.driver].open(port, options.ids) end},
 }
 local report_interval = 0.1  -- between two events of readings [s]
 local names = {glove = "the glove", tracker = "the tracker", hand = "the real hand"}
@@ -42,8 +47,9 @@ local function advance(session, sensor)
 end
 
 local function serve(session, sensor, kind)
-  sensor.device = kind.open(sensor.port)
-  kind.prepare(sensor.device)
+  local prepare
+  sensor.device, prepare = kind.open(sensor.port, sensor.options)
+  prepare()
   while not sensor.is_closed do
     sensor.reading, sensor.state, sensor.count = kind.read(sensor.device), "connected", sensor.count + 1
     if clench.loop.time() > sensor.reported + report_interval then notify(session, sensor) end
@@ -52,30 +58,66 @@ local function serve(session, sensor, kind)
   end
 end
 
+-- the line of a device; the error for one that cannot be opened says what to do
+local function open_line(path, baud)
+  if path == "" then raise("session: path: expected a serial line, such as /dev/ttyUSB0; " .. serial_lines.hint()) end
+  local ok, port = pcall(clench.port.serial, {path = path, baud = baud})
+  if ok then return port end
+  if is_stopped(port) then error(port, 0) end
+  local reason = type(port) == "table" and port.sentence or error_text(port)
+  raise(reason .. serial_lines.advice(reason), type(port) == "table" and port.kind or nil)
+end
+
+-- no two devices have one line; a real hand that stops still uses its line
+local function check_free(session, kind, path)
+  for other, name in pairs(names) do
+    local sensor = session.sensors[other]
+    local is_replaced = other == kind and kind ~= "hand"
+    if sensor and sensor.path == path and sensor.port:is_open() and not is_replaced then
+      raise(("session: %s uses %s; disconnect it first"):format(name, path))
+    end
+  end
+end
+
+-- stops a hand, which is asked for some seconds if it does not answer, and closes the line
+local function close(session, sensor)
+  local ok, stopped = pcall(sensor.device.close, sensor.device)
+  sensor.port:close()
+  if is_stopped(stopped) then error(stopped, 0) end
+  if ok and stopped ~= false then return end
+  session:emit("diagnostic", {severity = "error", text = ("%s at %s has not confirmed that it has stopped"):format(names[sensor.kind], sensor.path), count = 1})
+end
+
 --- Connects a device, instead of the one of its kind. It is served while `clench.loop` runs.
 ---@param kind "glove"|"tracker"|"hand"
 ---@param path string  of its serial line
----@param baud? integer
-function sensors.connect(session, kind, path, baud)
-  local port = clench.port.serial {path = path, baud = baud or kinds[kind].baud}
+---@param options table  {baud: that of the device by default; tracker: birds; hand: driver, ids, dofs, signs, offsets}
+function sensors.connect(session, kind, path, options)
+  local driver = kind == "hand" and real_hands.check(options.driver, options.ids) or kinds[kind]
+  check_free(session, kind, path)
+  local old = session.sensors[kind]
+  if old and old.path == path then sensors.disconnect(session, kind) end
+  local port = open_line(path, options.baud or driver.baud)
   sensors.disconnect(session, kind)
-  local sensor = {kind = kind, path = path, port = port, state = "connecting", count = 0, reported = -math.huge}
+  local sensor = {kind = kind, path = path, port = port, options = options, state = "connecting", count = 0, reported = -math.huge}
   session.sensors[kind] = sensor
   clench.loop.spawn(function()
     local ok, problem = pcall(serve, session, sensor, kinds[kind])
     if ok or sensor.is_closed then return end
     sensor.state, sensor.reading, sensor.task = "lost", nil, nil
-    port:close()
     report(session, sensor, problem)
+    if kind == "hand" and sensor.device and port:is_open() then close(session, sensor) end
+    port:close()
   end)
 end
 
---- Disconnects a device; a real hand is stopped. Without such a device, nothing happens.
+--- Disconnects a device; a real hand is stopped while `clench.loop` runs. Without such a device, nothing happens.
 function sensors.disconnect(session, kind)
   local sensor = session.sensors[kind]
   if not sensor then return end
   session.sensors[kind], sensor.is_closed = nil, true
-  if sensor.device then sensor.device:close() end
+  -- beside the caller: it does not wait for a hand that does not answer
+  if kind == "hand" and sensor.device and sensor.port:is_open() then return clench.loop.spawn(function() close(session, sensor) end) end
   sensor.port:close()
 end
 

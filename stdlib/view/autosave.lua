@@ -9,13 +9,14 @@ local quiet_time, longest_time = 5, 60  -- delays after the last and the first c
 local max_files = 20
 local mark = "-- autosave "
 
--- number and start time of a process: the number alone may be reused by another process
+-- number and start time of a process: the number alone may be reused by another process. nil if it has ended, even if its parent has not noticed yet
 local function process(id)
   local text = user_files.read(("/proc/%s/stat"):format(id))
   local rest = text and text:match "%)(.*)$"
   if not rest then return nil end
   local words = {}
   for word in rest:gmatch "%S+" do words[#words + 1] = word end
+  if words[1] == "Z" or words[1] == "X" then return nil end
   return {id = text:match "^%d+", start = words[20]}
 end
 
@@ -29,7 +30,7 @@ end
 
 --- Scripts of processes that no longer exist.
 ---@param folder string
----@return {file: string, path?: string, folder?: string, time: string, lines: string}[]
+---@return {file: string, text: string, path?: string, folder?: string, time: string, lines: string}[]
 function autosave.left(folder)
   local list = {}
   for i = 1, max_files do
@@ -40,7 +41,7 @@ function autosave.left(folder)
     if ok and is_head(said) then
       local owner = process(said.id)
       if not owner or owner.start ~= said.start then
-        list[#list + 1] = {file = file, path = said.path, folder = said.folder, time = said.time, lines = lines}
+        list[#list + 1] = {file = file, text = text, path = said.path, folder = said.folder, time = said.time, lines = lines}
       end
     end
   end
@@ -80,7 +81,7 @@ function autosave.keep(view, folder)
   view.subscriptions[#view.subscriptions + 1] = session:subscribe("changed", function() changed = true end)
   local function free_name()
     for i = 1, max_files do
-      if user_files.is_free(name_of(folder, i)) then return name_of(folder, i) end
+      if user_files.claim(name_of(folder, i)) then return name_of(folder, i) end
     end
     error(("autosave: %s is full; delete what is not needed"):format(folder), 0)
   end
@@ -108,6 +109,11 @@ function autosave.keep(view, folder)
   return {tick = tick, flush = flush, finish = forget}
 end
 
+-- removes an offered file, unless another viewer has restored it and uses its name now
+local function drop(offer)
+  if user_files.read(offer.file) == offer.text then os.remove(offer.file) end
+end
+
 local function take(view, offer)
   local ok, problem = pcall(view.session.run, view.session, "world.restore", {lines = offer.lines})
   if not ok then
@@ -118,7 +124,7 @@ local function take(view, offer)
   for _, kept in ipairs(view.kept) do
     if kept.flush then kept.flush() end
   end
-  os.remove(offer.file)
+  drop(offer)
   table.remove(view.left, 1)
 end
 
@@ -135,7 +141,7 @@ function autosave.draw(view, ui)
     ui:same_line()
     local waits = ui:button "Later"
     if restores then return take(view, offer) end
-    if discards then os.remove(offer.file) end
+    if discards then drop(offer) end
     if discards or waits then
       view.restore_error = nil
       table.remove(view.left, 1)

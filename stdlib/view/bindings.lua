@@ -1,6 +1,9 @@
---- Keys and what they do: actions of the view and commands of the session, each with a shortcut that the user may change.
+--- Keys and their effects: actions of the view and commands of the session, each with a shortcut that the user may change.
+local described = require "clench.described"
 local dialog = require "clench.view.dialog"
+local error_text = require "clench.error_text"
 local keys = require "clench.view.keys"
+local measure = require "clench.view.measure"
 local navigation = require "clench.view.navigation"
 local stereo = require "clench.view.stereo"
 local tools = require "clench.view.tools"
@@ -17,8 +20,8 @@ local function cancel(view)
   elseif view.press then
     view.press = nil
     view.session:cancel_gesture()
-  else
-    dialog.cancel(view)
+  elseif not dialog.cancel(view) then
+    measure.clear(view)
   end
 end
 
@@ -35,7 +38,7 @@ local own = {
   {"seek", "Seek the point under the mouse", "f", navigation.seek_mouse},
 }
 for i, tool in ipairs(tools.names) do
-  own[#own + 1] = {"tool " .. tool, "Tool " .. tool, tostring(i), function(view) view.current_tool = tool end}
+  own[#own + 1] = {"tool " .. tool, "Tool " .. tool, tostring(i), function(view) tools.choose(view, tool) end}
 end
 for i = 1, navigation.bookmark_count do
   own[#own + 1] = {"recall " .. i, "Recall bookmark " .. i, "f" .. i, function(view) navigation.recall(view, i) end}
@@ -88,6 +91,33 @@ function bindings.set(view, name, shortcut)
   if loser and loser.name ~= name then view.bindings[loser.name] = false else loser = nil end
   view.bindings[name] = shortcut or false
   return loser and loser.label
+end
+
+-- applies the shortcut of an action that a file says; taken: actions by the shortcuts applied before
+local function apply(view, name, said, taken)
+  if said == false then
+    view.bindings[name] = false
+    return
+  end
+  local shortcut = type(said) == "string" and keys.normal(said) or error("expected a shortcut, or false, got " .. described(said), 0)
+  if taken[shortcut] then error(("'%s' belongs to '%s'"):format(shortcut, taken[shortcut]), 0) end
+  taken[shortcut] = name
+  bindings.set(view, name, shortcut)
+end
+
+--- Applies the shortcuts of a file, by the names of actions; false: the action has none.
+---@return string[] problems  of those that are ignored
+function bindings.apply(view, said)
+  local names, problems, taken = {}, {}, {}
+  for name in pairs(type(said) == "table" and said or {}) do
+    if type(name) == "string" then names[#names + 1] = name end
+  end
+  table.sort(names)
+  for _, name in ipairs(names) do
+    local ok, problem = pcall(apply, view, name, said[name], taken)
+    if not ok then problems[#problems + 1] = ("keys: %s: %s"):format(name, error_text(problem)) end
+  end
+  return problems
 end
 
 --- Gives all actions the shortcuts of the program.

@@ -54,6 +54,18 @@ local function with_eye(c, eye, target, up)
   return {eye = eye, target = target or c.target, up = up or c.up, field_of_view = c.field_of_view, orthographic = c.orthographic}
 end
 
+--- Pose of a camera, which looks along -z, with +y up.
+function camera.pose(c)
+  local right, _, back = camera.axes(c)
+  return clench.pose {xyz = c.eye, x_axis = right, z_axis = back}
+end
+
+--- The camera at a pose, with its target at the same distance.
+function camera.at(c, pose)
+  local target = pose * (clench.vec3(0, 0, -1) * (c.eye - c.target):norm())
+  return with_eye(c, pose.position, target, pose:rotate(clench.vec3(0, 1, 0)))
+end
+
 --- The camera turned about its target.
 ---@param yaw number  about the vertical axis [rad]
 ---@param pitch number  upwards [rad]; it ends before the poles

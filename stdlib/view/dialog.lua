@@ -1,6 +1,7 @@
 --- Dialogs of commands, made from their parameters.
 local fields = require "clench.view.fields"
 local leave = require "clench.view.leave"
+local paths = require "clench.view.paths"
 local results = require "clench.view.planner_results"
 local variables = require "clench.view.planner_variables"
 local dialog = {}
@@ -72,7 +73,10 @@ end
 
 local function draw(view, ui, command, state)
   if is_planner(command) then return draw_planner(view, ui, command, state) end
-  draw_fields(view, ui, command, state, fields.height(view, ui, command))
+  -- an error takes its lines from the fields: the window keeps its size, and its buttons remain visible
+  local lines = state.error and 3 or 0
+  draw_fields(view, ui, command, state, math.max(fields.height(view, ui, command) - lines * ui.line_height, 2 * ui.line_height))
+  paths.draw(view, ui, command, state)
   if state.error then ui:text(state.error, {color = {0.84, 0.37, 0}, wrap = true}) end
   if ui:button("OK", {width = 90 * view.scale}) or state.entered then
     state.entered = nil
@@ -83,10 +87,13 @@ local function draw(view, ui, command, state)
 end
 
 --- Closes the open dialogs; those of planners stay, because their searches continue.
+---@return boolean closed  was there one?
 function dialog.cancel(view)
+  local closed = false
   for name in pairs(view.dialogs) do
-    if not is_planner(view.session.commands[name]) then view.dialogs[name] = nil end
+    if not is_planner(view.session.commands[name]) then view.dialogs[name], closed = nil, true end
   end
+  return closed
 end
 
 --- Draws the open dialogs.

@@ -55,7 +55,14 @@ function drags.turning(view, center, axis, x, y)
   end
 end
 
--- each of these returns a function from pixel and modifiers to the pose and a text that describes it
+-- the angle of a rotation about an axis, of all that differ by full turns the one nearest to another angle [rad]
+local function angle_about(rotation, axis, near)
+  local q = rotation.quat
+  local angle = 2 * math.atan(axis.x * q[2] + axis.y * q[3] + axis.z * q[4], q[1])
+  return angle + 2 * math.pi * math.floor((near - angle) / (2 * math.pi) + 0.5)
+end
+
+-- each of these returns a function from pixel and modifiers to the requested pose, and to a function that describes the displacement that was reached
 local kinds = {}
 
 function kinds.arrow(view, drag, handle)
@@ -63,7 +70,7 @@ function kinds.arrow(view, drag, handle)
   return function(x, y, snaps)
     local now = drags.along(view, handle.center, handle.axis, x, y)
     local distance = start and now and snapped(now - start, step, snaps) or 0
-    return clench.pose {xyz = handle.axis * distance} * drag.pose, ("%s %+.1f mm"):format(handle.name, distance * 1000)
+    return clench.pose {xyz = handle.axis * distance} * drag.pose, function(shift) return ("%s %+.1f mm"):format(handle.name, handle.axis:dot(shift) * 1000) end
   end
 end
 
@@ -71,7 +78,7 @@ function kinds.ring(view, drag, handle)
   local angle_at = drags.turning(view, handle.center, handle.axis, drag.x, drag.y)
   return function(x, y, snaps)
     local angle = snapped(angle_at(x, y), angle_step, snaps)
-    return about(handle.center, handle.axis, angle) * drag.pose, ("%s %+.1f°"):format(handle.name, math.deg(angle))
+    return about(handle.center, handle.axis, angle) * drag.pose, function(_, rotation) return ("%s %+.1f°"):format(handle.name, math.deg(angle_about(rotation, handle.axis, angle))) end
   end
 end
 
@@ -91,7 +98,7 @@ function kinds.plane(view, drag)
     local shift = to - from
     if constrains then shift = along_one_axis(shift) end
     shift = clench.vec3(snapped(shift.x, step, snaps), snapped(shift.y, step, snaps), snapped(shift.z, step, snaps))
-    return clench.pose {xyz = shift} * drag.pose, ("%+.1f %+.1f %+.1f mm"):format(shift.x * 1000, shift.y * 1000, shift.z * 1000)
+    return clench.pose {xyz = shift} * drag.pose, function(reached) return ("%+.1f %+.1f %+.1f mm"):format(reached.x * 1000, reached.y * 1000, reached.z * 1000) end
   end
 end
 
@@ -104,7 +111,7 @@ function kinds.ball(view, drag)
     end
     yaw, pitch = snapped(yaw, angle_step, snaps), snapped(pitch, angle_step, snaps)
     local center = drag.center
-    return about(center, up, yaw) * about(center, right, pitch) * drag.pose, ("turn %+.1f° %+.1f°"):format(math.deg(yaw), math.deg(pitch))
+    return about(center, up, yaw) * about(center, right, pitch) * drag.pose, function(_, rotation) return ("turn %.1f°"):format(math.deg(rotation:angle())) end
   end
 end
 
@@ -142,7 +149,7 @@ drags.touched = touched
 
 --- Moves the target of a drag towards the pose requested by the mouse.
 function drags.move(view, drag, x, y, snaps, constrains)
-  local pose, text = drag.pose_at(x, y, snaps, constrains)
+  local pose, describe = drag.pose_at(x, y, snaps, constrains)
   local target, result, miss = drag.target, nil, nil
   if drag.group then
     result = together.move(drag.group, pose * drag.pose:inverse())
@@ -152,6 +159,8 @@ function drags.move(view, drag, x, y, snaps, constrains)
     result = target:move_to(pose)
   end
   local contact = touched(result)
+  local now = drag.group and drag.group.reached * drag.pose or target.pose
+  local text = describe(now.position - drag.pose.position, now * drag.pose:inverse())
   view.status = text .. (miss and "; " .. miss or "") .. (contact and "; " .. contact or "")
   view.session:emit("changed", {gesture = true})
 end

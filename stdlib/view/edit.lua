@@ -1,4 +1,4 @@
---- Widgets whose value becomes a command when the user has finished: while it is edited, the value is stored separately from the world.
+--- Widgets whose value becomes a command at the end of an edit; until then it is stored separately from the world.
 local edit = {}
 
 --- A number that is dragged or typed.

@@ -62,7 +62,7 @@ local function draw_row(view, ui, parameter, names, values, unit)
   for i, name in ipairs(names) do
     if i > 1 then ui:same_line(3) end
     ui:width((pose_width - 6) / 3 * view.scale)
-    local value, is_changed = ui:drag(("##%s %s"):format(parameter.name, name), units.shown(values[i]) * factor, {speed = factor * (unit == "rad" and 5e-3 or 1e-3), format = name .. " " .. format})
+    local value, is_changed = ui:drag(("##%s %s"):format(parameter.name, name), units.field(values[i] * factor, format), {speed = factor * (unit == "rad" and 5e-3 or 1e-3), format = name .. " " .. format})
     ui:tooltip(("%s [%s] of the pose"):format(name, select(2, units.of(view, unit))))
     if is_changed then values[i], changed = value / factor, true end
   end
@@ -87,14 +87,14 @@ end
 
 local function draw_text(ui, state, parameter)
   local name = parameter.name
-  local text, changed, entered = ui:text_input("##" .. name, state.texts[name] or shown(state[name]), {hint = parameter.optional and "default" or "", on_enter = true, focus = state.focus == name})
+  local text, changed, entered = ui:text_input("##" .. name, state.texts[name] or shown(state[name]), {hint = state.hints[name] or parameter.optional and "default" or "", on_enter = true, focus = state.focus == name})
   if state.focus == name then state.focus = nil end
   state.entered = state.entered or entered
   if changed then state.texts[name], state[name] = text, read(parameter, text) end
 end
 
 --- Draws the field of a parameter.
----@param state table  values by name; `texts`: typed texts; `focus`: name of the field that takes the keys; `entered`: Enter was pressed
+---@param state table  values by name; `texts`: typed texts; `hints`: of empty fields; `focus`: name of the field that takes the keys; `entered`: Enter was pressed
 local function draw_value(view, ui, state, parameter)
   local name = parameter.name
   local choices = choices_of(view, parameter)
@@ -119,12 +119,13 @@ end
 --- The values with which a dialog opens, and its first typed field, which takes the keys.
 ---@return table state
 function fields.new(view, command)
-  local state = {texts = {}}
+  local state = {texts = {}, hints = {}}
   for _, parameter in ipairs(command.parameters or {}) do
     local value = parameter.in_dialog
     if type(value) == "function" then value = value(view.session) end
     if value == nil then value = parameter.default end
     state[parameter.name] = value
+    if parameter.hint then state.hints[parameter.name] = parameter.hint() end
     local is_typed = parameter.type ~= "boolean" and parameter.type ~= "pose" and not choices_of(view, parameter)
     if is_typed and not state.focus then state.focus = parameter.name end
   end

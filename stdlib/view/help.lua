@@ -36,7 +36,7 @@ local function draw_keys(view, ui)
   end)
 end
 
---- Draws those that are open.
+--- Draws the open windows.
 function help.draw(view, ui)
   if view.shows_about and not ui:window("About", {width = 0, x = 0, movable = true, can_close = true}, function(ui)
     ui:text("Clench " .. clench.version)

@@ -30,7 +30,7 @@ function view.open(what, options)
   return require "clench.view.viewer" {session = session, window = true, size = options.size, dark = options.dark, scale = options.scale, title = options.title}
 end
 
---- Adds a panel to all views; one of the same name is replaced. An error in it is shown in it and stops nothing else.
+--- Adds a panel to all views; one of the same name is replaced. An error of a panel is shown in the panel, and does not affect the others.
 ---@param panel {name: string, draw: fun(ui: ui, view: table), place?: string}  place: "left", "right" or "bottom"
 function view.panel(panel)
   if type(panel) ~= "table" or type(panel.name) ~= "string" or type(panel.draw) ~= "function" then

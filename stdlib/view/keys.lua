@@ -30,6 +30,21 @@ function keys.codes(shortcut)
   return list
 end
 
+--- A shortcut as pressed keys spell it, with its modifiers in order; raises an error if it is none.
+---@param shortcut string  "shift+ctrl+z"
+---@return string  "ctrl+shift+z"
+function keys.normal(shortcut)
+  local press = {}
+  for _, code in ipairs(keys.codes(shortcut)) do
+    local is_modifier = false
+    for name, held in pairs(keys.modifiers) do
+      if code == held then press[name], is_modifier = true, true end
+    end
+    if not is_modifier then press.key = code end
+  end
+  return keys.shortcut(press)
+end
+
 --- The shortcut of a pressed key: "ctrl+g"; nil for keys without a name.
 ---@param press table  one of ui.pressed
 function keys.shortcut(press)

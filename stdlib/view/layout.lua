@@ -11,10 +11,12 @@ local projections = require "clench.view.projections"
 local selection = require "clench.view.selection"
 local splitters = require "clench.view.splitters"
 local status = require "clench.view.status"
+local tools = require "clench.view.tools"
 local layout = {}
 
 local menu_height, bar_height, status_height = 24, 36, 28  -- at scale 1 [pixels]
 local line_height = 28  -- of widgets at scale 1 [pixels]
+local min_bar = 1050  -- width of the complete tool bar at scale 1 [pixels]
 local tall_share = 0.72  -- fraction of the height of its column
 local user_panels = {}  -- panels that scripts have added, by name and in order
 
@@ -39,7 +41,7 @@ function layout.add(panel)
   user_panels[#user_panels + 1] = panel
 end
 
--- an error of a panel is shown in it
+-- shows an error of a panel in the panel
 local function draw_panel(view, ui, panel)
   local ok, message = pcall(panel.draw, ui, view)
   if not ok then ui:text(tostring(message), {color = {0.84, 0.37, 0}, wrap = true}) end
@@ -99,25 +101,36 @@ local function draw_strip(view, ui, place, list, rect)
   end)
 end
 
--- panels below each other in a column, then those that share a window
+-- heights of the parts of a column: those of the user, or equal ones, or less for the parts above a tall panel
+local function heights_of(view, place, rows, tabs, height)
+  local heights = {}
+  local count = #rows + (#tabs > 0 and 1 or 0)
+  for i = 1, count do heights[i] = height / count end
+  if count == 2 and view.shares[place] then
+    heights[1] = height * view.shares[place]
+    heights[2] = height - heights[1]
+  elseif #tabs > 0 and #rows > 0 and front_of(view, place, tabs).tall then
+    heights[count] = math.max(height / count, height * tall_share)
+    for i = 1, #rows do heights[i] = (height - heights[count]) / #rows end
+  end
+  return heights
+end
+
+-- Panels below each other in a column, then those that share a window. Two parts have a gap between them; returns this edge.
 local function draw_column(view, ui, place, x, y, width, height)
   local rows, tabs = {}, {}
   for _, panel in ipairs(placed(view, place)) do
     local list = panel.tab and tabs or rows
     list[#list + 1] = panel
   end
-  local count = #rows + (#tabs > 0 and 1 or 0)
-  local each = count > 0 and height / count or 0
-  -- a tall panel reduces the space of the others
-  local shared = height - #rows * each
-  if #tabs > 0 and #rows > 0 and front_of(view, place, tabs).tall then
-    shared = math.max(shared, height * tall_share)
-    each = (height - shared) / #rows
-  end
+  local heights = heights_of(view, place, rows, tabs, height)
+  local gap, at = #heights == 2 and splitters.gap or 0, y
   for i, panel in ipairs(rows) do
-    ui:window(panel.name, {x = x, y = y + (i - 1) * each, width = width, height = each}, function(ui) draw_panel(view, ui, panel) end)
+    ui:window(panel.name, {x = x, y = at, width = width, height = heights[i] - (i == 1 and gap or 0)}, function(ui) draw_panel(view, ui, panel) end)
+    at = at + heights[i]
   end
-  if #tabs > 0 then draw_strip(view, ui, place, tabs, {x = x, y = y + #rows * each, width = width, height = shared}) end
+  if #tabs > 0 then draw_strip(view, ui, place, tabs, {x = x, y = at, width = width, height = heights[#heights]}) end
+  return gap > 0 and {at = y + heights[1] - gap, from = x, to = x + width, top = y, height = height} or nil
 end
 
 local function draw_bottom(view, ui, x, y, width, height)
@@ -153,20 +166,15 @@ local function choose(view, ui, text, list, current, command, argument)
   ui:same_line()
 end
 
-local tool_texts = {
-  Camera = "A drag turns the camera, a double click seeks a point.", Select = "A click selects a body, with Shift it adds to the selection.",
-  Translate = "A drag moves a body or robot until it touches something; a click on a finger link shows its joints.",
-  Rotate = "A drag turns a body or robot until it touches something.", Measure = "Two clicks measure a distance, three an angle.",
-}
-
 local function draw_bar(view, ui, y, width)
   ui:window("tool bar", {x = 0, y = y, width = width, height = bar_height * view.scale, title = false, scroll = false}, function(ui)
     for _, tool in ipairs(view.tools) do
-      if ui:button(tool .. "##tool", {selected = view.current_tool == tool}) then view.current_tool = tool end
-      ui:tooltip(("%s  %s\n%s\nview:tool %q"):format(tool, bindings.shown(view, "tool " .. tool), tool_texts[tool] or "", tool))
+      if ui:button(tool .. "##tool", {selected = view.current_tool == tool}) then tools.choose(view, tool) end
+      ui:tooltip(("%s\n%s\nview:tool %q"):format(bindings.shown(view, "tool " .. tool), tools.hints[tool] or tool, tool))
       ui:same_line()
     end
-    for _, entry in ipairs {{"Undo", "edit.undo"}, {"Redo", "edit.redo"}, {"Close hand", "grasp.autograsp"}, {"Open hand", "grasp.open"}} do
+    -- in a narrow window these are in the menus only
+    for _, entry in ipairs(width < min_bar * view.scale and {} or {{"Undo", "edit.undo"}, {"Redo", "edit.redo"}, {"Close hand", "grasp.autograsp"}, {"Open hand", "grasp.open"}}) do
       if view.session.commands[entry[2]] then command_button(view, ui, entry[1], entry[2]) end
     end
     local world = view.session.world
@@ -245,10 +253,11 @@ function layout.draw(view, ui)
   local top = menu + bar_height * view.scale
   local left, right, below = splitters.size(view, "left"), splitters.size(view, "right"), splitters.size(view, "bottom")
   local bottom = height - below_all - below
-  draw_column(view, ui, "left", 0, top, left, bottom - top)
-  draw_column(view, ui, "right", width - right, top, right, bottom - top)
+  local within_left = draw_column(view, ui, "left", 0, top, left, bottom - top)
+  local within_right = draw_column(view, ui, "right", width - right, top, right, bottom - top)
   draw_bottom(view, ui, 0, bottom, width, below)
   view.edges = edges_of(view, width, height)
+  view.edges["within left"], view.edges["within right"] = within_left, within_right
   draw_status(view, ui, height - below_all, width, below_all)
   dialog.draw(view, ui)
   compare.draw(view, ui)

@@ -55,7 +55,7 @@ local function ring(view, name, axis, center, pixel, color)
   return {name = "turn " .. name, kind = "ring", axis = axis, center = center, line = line, color = color, x = middle[1], y = middle[2]}
 end
 
---- Its handles for the current tool.
+--- Handles of the manipulator for the current tool.
 ---@return table[] handles
 function manipulator.handles(view)
   local make = view.current_tool == "Translate" and arrow or view.current_tool == "Rotate" and ring

@@ -55,6 +55,14 @@ function measure.click(view, x, y)
   end
 end
 
+--- Removes the measurement.
+---@return boolean removed
+function measure.clear(view)
+  local had = #view.measured > 0
+  if had then view.measured, view.status = {}, "Measure: click on a point" end
+  return had
+end
+
 --- Draws the points, the lines between them and their values.
 function measure.draw(view, ui)
   local points, pixels = measure.points(view), {}

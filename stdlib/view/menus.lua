@@ -6,6 +6,7 @@ local menu_tree = require "clench.view.menu_tree"
 local navigation = require "clench.view.navigation"
 local preferences = require "clench.view.preferences"
 local stereo = require "clench.view.stereo"
+local tools = require "clench.view.tools"
 local units = require "clench.view.units"
 local with_ending = require "clench.session.with_ending"
 local menus = {}
@@ -43,7 +44,7 @@ end
 
 local function draw_tools(view, ui)
   for _, tool in ipairs(view.tools) do
-    if ui:menu_item(tool, {shortcut = bindings.shown(view, "tool " .. tool), selected = view.current_tool == tool}) then view.current_tool = tool end
+    if ui:menu_item(tool, {shortcut = bindings.shown(view, "tool " .. tool), selected = view.current_tool == tool}) then tools.choose(view, tool) end
   end
 end
 

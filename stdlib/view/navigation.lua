@@ -28,7 +28,7 @@ function navigation.drag(view, mouse, ctrl, shift)
   end
 end
 
---- Turns the camera to a point, which becomes the center of rotation; a quarter of the way nearer.
+--- Turns the camera to a point, which becomes the center of rotation, and moves it nearer by a quarter of the distance.
 ---@param point vec3  [m]
 function navigation.seek(view, point)
   view.camera = camera.zoomed(camera.centered(view.camera, point), 0.75)

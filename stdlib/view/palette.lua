@@ -3,6 +3,9 @@ local bindings = require "clench.view.bindings"
 local dialog = require "clench.view.dialog"
 local palette = {}
 
+local max_shown = 12  -- maximum number of listed commands
+local up, down = 265, 264  -- codes of keys
+
 -- do the letters of `text` occur in `label` in order? Returns a rank, lower for better matches
 local function rank(label, text)
   local lower, at, gaps = label:lower(), 0, 0
@@ -35,16 +38,23 @@ end
 function palette.draw(view, ui)
   local state = view.palette
   if not state then return end
-  local width = 460 * view.scale
-  ui:window("Command Palette", {x = (ui.size[1] - width) / 2, y = 60 * view.scale, width = width, height = 330 * view.scale, title = false, scroll = false}, function(ui)
+  local width = math.min(460 * view.scale, ui.size[1])
+  -- a window that cannot be moved would be behind the panels
+  local place = {x = (ui.size[1] - width) / 2, y = 60 * view.scale, width = width, height = 330 * view.scale, title = false, scroll = false, movable = true}
+  ui:window("Command Palette", place, function(ui)
     ui:width(-1)
     local text, changed, entered = ui:text_input("##palette", state.text, {hint = "Type a command", on_enter = true, focus = not state.shown})
     state.shown, state.text = true, text
     if changed then state.index = 1 end
     local list = matches(view, text)
+    local shown = math.min(#list, max_shown)
+    for _, press in ipairs(ui.pressed) do
+      local by = press.key == up and -1 or press.key == down and 1 or 0
+      state.index = math.max(1, math.min(shown, (state.index or 1) + by))
+    end
     ui:child("matches", {}, function(ui)
-      for i, match in ipairs(list) do
-        if i > 12 then break end
+      for i = 1, shown do
+        local match = list[i]
         local shortcut = bindings.shown(view, match.command.name)
         if ui:selectable(match.label .. (shortcut ~= "" and "    " .. shortcut or "") .. "##" .. match.command.name, i == (state.index or 1)) then entered, state.index = true, i end
       end

@@ -1,7 +1,7 @@
 --- Settings that the viewer stores from one run to the next: theme, units, navigation, keys, panels that are hidden or in front, sizes of the window
 --- and of panels, recent files.
+local bindings = require "clench.view.bindings"
 local error_text = require "clench.error_text"
-local keys = require "clench.view.keys"
 local leave = require "clench.view.leave"
 local navigation = require "clench.view.navigation"
 local splitters = require "clench.view.splitters"
@@ -18,21 +18,21 @@ local function sorted_keys(set)
   return list
 end
 
--- a table by names, which is no list if it is empty
+-- a table by names; nil if it is empty, as JSON would take that for a list
 local function named(values) return next(values) and values or nil end
 
 local function text_of(view)
   local size = view.ui.size
   return clench.json.encode({dark = view.dark, units = view.units, hidden = sorted_keys(view.hidden), navigation = view.navigation,
-                             keys = named(view.bindings), sizes = view.sizes, front = named(view.front),
+                             keys = named(view.bindings), sizes = view.sizes, shares = named(view.shares), front = named(view.front),
                              size = {math.tointeger(size[1]), math.tointeger(size[2])}, recent = view.recent}, {indent = 2}) .. "\n"
 end
 
--- the texts of a list; no texts for any other value
+-- the texts of a list without control characters; no texts for any other value
 local function texts_of(list)
   local texts = {}
   for _, text in ipairs(type(list) == "table" and list or {}) do
-    if type(text) == "string" then texts[#texts + 1] = text end
+    if type(text) == "string" and not text:find "%c" then texts[#texts + 1] = text end
   end
   return texts
 end
@@ -72,8 +72,10 @@ local function apply_arrangement(view, said)
   for _, style in ipairs(navigation.styles) do
     if said.navigation == style then view.navigation = style end
   end
-  view.bindings = values_of(said.keys, function(value) return value == false or type(value) == "string" and (pcall(keys.codes, value)) end)
+  for _, problem in ipairs(bindings.apply(view, said.keys)) do view:print("settings: " .. problem, "error") end
   view.front = values_of(said.front, function(value) return type(value) == "string" end)
+  local shares = values_of(said.shares, function(value) return type(value) == "number" and value >= splitters.min_share and value <= 1 - splitters.min_share end)
+  view.shares = {left = shares.left, right = shares.right}
   local sizes = values_of(said.sizes, function(value) return type(value) == "number" and value >= splitters.min and value <= 8192 end)
   for name in pairs(view.sizes) do view.sizes[name] = sizes[name] or view.sizes[name] end
 end
@@ -88,7 +90,7 @@ local function apply(view, said)
   apply_arrangement(view, said)
 end
 
---- Records a file that was opened.
+--- Records a file that was opened or saved.
 function preferences.add_recent(view, path)
   path = user_files.absolute(path)
   local list = {path}
@@ -113,14 +115,23 @@ end
 ---@return {tick: fun(now: number), finish: fun()}
 function preferences.keep(view, path)
   local ok, said = pcall(preferences.read, path)
-  if not ok then view:print(said, "error") end
+  if not ok then
+    -- they may have been edited by hand: they are not overwritten
+    local moved = os.rename(path, path .. ".damaged")
+    view:print(said .. (moved and "; the file is now " .. path .. ".damaged" or ""), "error")
+  end
   apply(view, ok and said or {})
-  if view.session.path then preferences.add_recent(view, view.session.path) end
-  view.subscriptions[#view.subscriptions + 1] = view.session:subscribe("changed", function(event)
-    if event.command == "world.open" and view.session.path then preferences.add_recent(view, view.session.path) end
-  end)
+  local known
+  local function follow_path()
+    local now = view.session.path
+    if now and now ~= known then preferences.add_recent(view, now) end
+    known = now
+  end
+  follow_path()
+  view.subscriptions[#view.subscriptions + 1] = view.session:subscribe("changed", follow_path)
   local saved, looked, failed
   local function save()
+    follow_path()  -- Save As changes nothing else
     local text = text_of(view)
     if not path or text == saved then return end
     local done, problem = pcall(user_files.save, path, text)

@@ -1,4 +1,4 @@
---- Projections of the wrench space of the current grasp, in the panel and in windows of their own: three coordinates fixed, a picture that a drag turns.
+--- Projections of the wrench space of the current grasp, in the panel and in separate windows: three coordinates are fixed, and a drag turns the picture.
 local camera = require "clench.view.camera"
 local edit = require "clench.view.edit"
 local projections = {}

@@ -20,13 +20,13 @@ local function draw_material(view, ui, bodies)
   for i, name in ipairs(names) do
     if name == current then index = i end
   end
-  ui:width(-90)
+  ui:width(-90 * view.scale)
   local chosen, changed = ui:combo("material", index, names)
   ui:tooltip(index and "Material of all that is selected" or "The materials differ: a choice sets all of them.")
   if changed then view:run("body.material", {material = names[chosen]}) end
 end
 
--- do the selected bodies collide? If two are selected: with each other
+-- are collisions of the selection enabled? If two are selected: with each other
 local function collide(world, selection)
   if #selection == 2 then return world:may_collide(selection[1], selection[2]) end
   return edit.common(selection, function(thing) return world:may_collide(thing) end) ~= false
@@ -53,7 +53,7 @@ end
 
 local function draw_transparency(view, ui, bodies)
   local current = edit.common(bodies, function(body) return body.transparency end)
-  ui:width(-90)
+  ui:width(-90 * view.scale)
   local value, changed, finished = ui:slider("transp. [%]", (current or 0) * 100, {min = 0, max = 100, format = "%.0f"})
   if not current then ui:text("The transparencies differ: a value sets all of them.", {color = gray, wrap = true}) end
   if changed then set_transparency(view, bodies, math.max(0, math.min(1, value / 100))) end
@@ -64,7 +64,7 @@ local function draw_mass(view, ui, bodies)
   local mass = edit.common(bodies, function(body) return body.mass end)
   local key = "mass"
   for _, body in ipairs(bodies) do key = key .. " " .. body.name end
-  ui:width(-90)
+  ui:width(-90 * view.scale)
   local value = edit.number(view, ui, "mass [kg]", key, mass, {speed = 0.005, min = 0, max = 1e6, format = "%.4g"})
   if not mass then ui:text("The masses differ: a value sets all of them.", {color = gray, wrap = true}) end
   if value then view:run("body.mass", {mass = math.max(0, value)}) end

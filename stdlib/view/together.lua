@@ -1,4 +1,4 @@
---- Drags of several bodies and robots as one rigid whole: one displacement of all of them, which ends where the first one touches something else.
+--- Drags of several bodies and robots as one rigid group, by one displacement that ends where the first of them touches something else.
 local together = {}
 
 local halvings = 12  -- of a step that contact shortens
@@ -12,7 +12,7 @@ local function contains(list, thing)
   return false
 end
 
--- is a robot mounted on another one of a list, or on what that one carries?
+-- is a robot carried, directly or not, by another one of a list?
 local function is_carried(robot, list)
   local below = robot.parent
   while below and not contains(list, below) do below = below.parent end
@@ -66,7 +66,7 @@ local function try(group, displacement)
   end
 end
 
--- the displacement at a fraction of the way from the one that was reached: its center along a straight line, with the shortest turn
+-- the displacement at a fraction of the path from the last one that was reached: its center along a straight line, with the shortest turn
 local function part_way(group, displacement, fraction)
   local from, to = group.reached * group.center, displacement * group.center
   return from:interpolate(to, fraction) * group.center:inverse()

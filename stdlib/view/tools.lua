@@ -21,6 +21,18 @@ local contact_reach = 8  -- distance within which a click hits a contact [pixels
 
 tools.names = {"Camera", "Select", "Translate", "Rotate", "Measure"}
 
+--- How each tool is used.
+tools.hints = {
+  Camera = "Camera: drag to turn, double click to look at a point",
+  Select = "Select: click on a body; Shift adds, a second click selects the robot",
+  Translate = "Translate: drag a body, or an arrow of the selection; Ctrl snaps, Shift keeps one axis",
+  Rotate = "Rotate: drag a body, or a ring of the selection; Ctrl snaps, Shift keeps one axis",
+  Measure = "Measure: click on a point",
+}
+
+--- Chooses a tool; the status bar shows its use.
+function tools.choose(view, name) view.current_tool, view.status = name, tools.hints[name] end
+
 local function hit_under(view, c, x, y)
   local world = view.session.world
   if not world then return nil end
@@ -131,7 +143,9 @@ function tools.update(view)
   if mouse.right.clicked or mouse.middle.clicked then view.press = {kind = "camera", opens_menu = mouse.right.clicked} end
   local press = view.press
   if not press then return end
-  local moved = mouse.dx ~= 0 or mouse.dy ~= 0
+  -- the motion of the frame of a press led to the place of the press
+  local begins = mouse.left.clicked or mouse.right.clicked or mouse.middle.clicked
+  local moved = not begins and (mouse.dx ~= 0 or mouse.dy ~= 0)
   if press.kind == "camera" and moved then
     press.opens_menu = false
     navigation.drag(view, mouse, ctrl_down(ui), shift_down(ui))

@@ -19,13 +19,17 @@ function units.of(view, unit)
   return 1, unit, "%.4g"
 end
 
---- A value for display: zero if only rounding errors make it differ from zero, so that it has no sign.
-function units.shown(value) return math.abs(value) < 1e-12 and 0.0 or value end
+local function is_zero(text) return text:find "^%-?[0.]+$" ~= nil end
+
+--- A value for a field: zero if the field would show -0.000.
+---@param value number  in the displayed unit
+---@param format string  of the field
+function units.field(value, format) return is_zero(format:format(value)) and 0 or value end
 
 --- A value with its unit, for display.
 function units.text(view, value, unit)
   local factor, name, format = units.of(view, unit)
-  local number = format:format(value * factor):gsub("^%-([0.]+)$", "%1")  -- no -0.000
+  local number = format:format(units.field(value * factor, format))
   return number .. (name == "1" and "" or name == "°" and name or " " .. name)
 end
 

@@ -18,12 +18,14 @@ function user_files.settings() return folder("XDG_CONFIG_HOME", ".config") end
 ---@return string? folder
 function user_files.state() return folder("XDG_STATE_HOME", ".local/state") end
 
+local function make_folder(path) return ("mkdir -p -m 700 %s 2>/dev/null"):format(quoted(path:match "^(.*)/")) end
+
 --- Writes a file, and creates its folder if necessary.
 ---@param path string
 ---@param text string
 function user_files.save(path, text)
   if pcall(clench.files.save_text, path, text) then return end
-  os.execute(("mkdir -p -m 700 %s 2>/dev/null"):format(quoted(path:match "^(.*)/")))
+  os.execute(make_folder(path))
   clench.files.save_text(path, text)
 end
 
@@ -36,10 +38,18 @@ function user_files.read(path)
   return text and #text <= max_size and text or nil
 end
 
---- Is there nothing under this name, neither a file nor a folder?
-function user_files.is_free(path)
+-- is there nothing under this name, neither a file nor a folder?
+local function is_free(path)
   local file <close>, _, code = io.open(path, "rb")
   return not file and (code == 2 or code == 20)  -- ENOENT, ENOTDIR: its folder is none
+end
+
+--- May this process use a name? It creates an empty file, and of several processes that do so at once only one may. A name where no file can be created is
+--- free, too: writing it tells why.
+---@return boolean
+function user_files.claim(path)
+  if not is_free(path) then return false end
+  return os.execute(("%s; set -C; { : > %s; } 2>/dev/null"):format(make_folder(path), quoted(path))) == true or is_free(path)
 end
 
 --- The absolute path, so that it can be opened from any folder.

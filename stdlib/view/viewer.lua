@@ -63,8 +63,8 @@ function Viewer:fail(problem) status.fail(self, problem) end
 --- The address of a body or robot.
 function Viewer:address(thing) return arguments.address(thing) end
 
---- Points the camera at the grasp, or restores the user's home, or shows everything.
----@param all? boolean  true: at everything
+--- Restores the camera that Set Home has stored; without one, frames the grasp.
+---@param all? boolean  true: frames everything instead
 function Viewer:home(all)
   if not self.session.world then return end
   self.needs_frame = true
@@ -97,7 +97,7 @@ function Viewer:save_script(path) clench.files.save_text(path, self.session:scri
 local function follow_world(self)
   local world = self.session.world
   if not world or self.shown_world == world then return end
-  self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author = world, nil, {}, nil, nil, nil
+  self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author, self.curves, self.dialogs = world, nil, {}, nil, nil, nil, nil, {}
   self:home()
 end
 
@@ -146,8 +146,8 @@ function Viewer:frame()
     draw_world(self, ui)
     if self.panels_visible then
       tools.draw(self, ui)
-      splitters.draw(self, ui)
       layout.draw(self, ui)
+      splitters.draw(self, ui)  -- behind the panels
     end
     palette.draw(self, ui)
     bindings.update(self)
@@ -222,7 +222,7 @@ end
 function Viewer:tool(name)
   for _, known in ipairs(tools.names) do
     if known == name then
-      self.current_tool = name
+      tools.choose(self, name)
       return input.settle(self)
     end
   end
@@ -249,10 +249,22 @@ function Viewer:flush()
   end
 end
 
+-- the camera of the session's trackers is that of its last view
+local function lend_camera(self)
+  local function current() return self.camera or raise "view: there is no camera while no world is open" end
+  local function set(pose)
+    self.camera = camera.at(current(), pose)
+    self.needs_frame = true
+  end
+  self.lent_camera = {get = function() return camera.pose(current()) end, set = set}
+  self.session.sensors.camera = self.lent_camera
+end
+
 --- Closes the view.
 function Viewer:close()
   if self.is_closed then return end
   self.is_closed = true
+  if self.session.sensors.camera == self.lent_camera then self.session.sensors.camera = nil end
   for _, unsubscribe in ipairs(self.subscriptions) do unsubscribe() end
   if self.timer then self.timer:remove() end
   for _, kept in ipairs(self.kept) do kept.finish() end
@@ -269,12 +281,13 @@ return function(options)
   local session = options.session
   local view = setmetatable({
     session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m", angle = "rad"}, edits = {}, front = {}, display = {},
-    panels_visible = true, picture_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, bindings = {}, edges = {}, scale = 1, sizes = {left = splitters.default.left, right = splitters.default.right, bottom = splitters.default.bottom}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
+    panels_visible = true, picture_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, bindings = {}, edges = {}, shares = {}, scale = 1, sizes = {left = splitters.default.left, right = splitters.default.right, bottom = splitters.default.bottom}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
   }, Viewer)
   local size = options.size or options.window and preferences.size()
   view.ui = clench.ui {size = size, window = options.window, title = options.title, dark = options.dark, scale = options.scale}
   view.panels = layout.panels()
   view:home()
+  lend_camera(view)
   for _, event in ipairs {"changed", "progress", "result"} do
     view.subscriptions[#view.subscriptions + 1] = session:subscribe(event, function() view:changed() end)
   end

@@ -64,6 +64,7 @@ local writers = {
   ["clench.files.append_text"] = function(path) clench.files.append_text(path, "text") end,
   ["clench.files.check_writable"] = clench.files.check_writable,
   ["clench.export_html"] = function(path) clench.export_html(hand.world, path .. ".html") end,
+  ["clench.devices.save_postures"] = function(path) clench.devices.save_postures(path, {{sensors = {1}}}) end,
   ["clench.devices.save_calibration"] = function(path) clench.devices.save_calibration(path, {slopes = {{1}}, intercepts = {0}}) end,
   ["clench.port.listen"] = function(path) clench.port.listen {path = path}:close() end,
   ["clench serve --token-file"] = function(path) require "clench.save_secret"(path, "token") end,

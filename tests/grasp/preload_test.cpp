@@ -60,9 +60,9 @@ TEST_CASE("elastic responses are the smallest forces that balance the load") {
 
 TEST_CASE("given torques limit the largest load") {
   const Jaws j = jaws(DofKind::rigid, 0.5, 10);
-  ForceOptions options{.load = wrench(0, 0, -1, 0, 0, 0)};
-  options.joints.emplace();
-  options.joints->efforts = Vector2d(3, 3);
+  JointDemand joints;
+  joints.efforts = Vector2d(3, 3);
+  ForceOptions options{.load = wrench(0, 0, -1, 0, 0, 0), .joints = joints};
   CHECK(std::abs(max_load(j.world, j.grasp, options).load_factor - 3) < 1e-6);
   options.load = wrench(1, 0, 0, 0, 0, 0);
   CHECK(max_load(j.world, j.grasp, options).load_factor < 1e-6);

@@ -134,8 +134,8 @@ test("in Chromium frames arrive while the world runs, and plots, tree and camera
   end, 60, "the new page")
   t.equal(page:evaluate "document.querySelectorAll('#bodies b').length", 0)
   for _, client in ipairs {table.unpack(server.clients)} do client:close() end
-  page:await "told.connected === 'false'"
-  page:await("told.connected === 'true'", 30)
+  page:await "stats.connected === 'false'"
+  page:await("stats.connected === 'true'", 30)
   t.equal(page:faults(), "")
 end)
 

@@ -142,17 +142,170 @@ test("requests with very many values are refused at once", function(t)
     for i = 1, count do list[i] = value end
     return list
   end
-  refused("grasp.dofs", {dofs = many(1, 400000)}, -32002, "at most 50000 values")
-  refused("step", {targets = {barrett = many(1, 400000)}}, -32002, "at most 50000 values")
-  refused("world.average_contacts", {links = many("mug", 1001)}, -32002, "links: expected at most 1000 addresses, got 1001")
+  refused("grasp.dofs", {dofs = many(1, 400000)}, -32002, "at most 20000 values")
+  refused("step", {targets = {barrett = many(1, 400000)}}, -32002, "at most 20000 values")
+  refused("read", {items = many({}, 20001)}, -32002, "at most 20000 values")
+  for _, case in ipairs {{"world.average_contacts", "links"}, {"world.select", "addresses"}} do
+    refused(case[1], {[case[2]] = many("mug", 1001)}, -32000, case[2] .. ": expected at most 11 addresses, of different bodies and robots, got 1001")
+  end
   refused("body.move", {body = ("/"):rep(900000), pose = {}}, -32000, "an address has at most 1000 bytes, got 900000")
 end)
 
-test("requests whose id is null are found between other requests", function(t)
-  local null_ids = require "clench.control.rpc.null_ids"
-  for _, case in ipairs {{'{"id":null}', {true}}, {' {"a":{"id":null},"b":[{"id" : null}]} ', {}}, {'{"a":"\\"id\\":null","id" : null}', {true}}, {'{"a":"\\"id\\":null"}', {}},
-                         {'[{"id":1},{"a":[1,{"id":null}],"id":null},[{"id":null}],"}{",{"a":",\\\\","id":null}]', {[2] = true, [5] = true}}} do
-    t.equal(null_ids(case[1]), case[2], case[1])
+test("the id of a request is found also if its values are too many to be decoded, and a batch of such requests is answered one by one", function(t)
+  local server <close> = serve()
+  local client, other = connect(server), connect(server)
+  local ones = "[" .. ("1,"):rep(30000) .. "1]"
+  local function large(id) return ('{"jsonrpc":"2.0","method":"grasp.dofs","params":{"dofs":%s}%s}'):format(ones, id and ',"id":' .. id or "") end
+  local good = '{"jsonrpc":"2.0","id":"good","method":"world.hash"}'
+  local function answers(line)
+    client.port:write(line .. "\n" .. good .. "\n")
+    local list = {}
+    while true do
+      local message = client.receive()
+      if message.id == "good" then return list end
+      list[#list + 1] = message
+    end
+  end
+  for _, case in ipairs {{"7", 7}, {'"a b"', "a b"}, {"null", nil}, {"{}", nil}, {ones, nil}} do
+    local got = answers(large(case[1]))
+    t.equal({#got, code(got[1]), got[1].id}, {1, -32002, case[2]})
+  end
+  t.equal(answers(large()), {})  -- a notification
+  local batch = answers("[" .. table.concat({large "1", large(), "5", '{"jsonrpc":"2.0","id":"b","method":"world.hash"}', large "null", "[]"}, ",") .. "]")[1]
+  local codes = {}
+  for i, response in ipairs(batch) do codes[i] = code(response) or response.id end
+  t.equal(codes, {-32002, -32600, "b", -32002, -32600})
+  t.equal(code(answers("[" .. ("1,"):rep(30000) .. "1]")[1]), -32600)
+  t.equal(code(answers("[" .. large "1" .. ",{]]")[1][2]), -32700)
+  t.equal(code(answers("[" .. large "1" .. ",{")[1]), -32700)
+  t.ok(other.get "world.hash")
+end)
+
+test("no line costs the server more than some milliseconds before it is refused", function(t)
+  local server <close> = serve()
+  local client, guest = connect(server), connect(server, false)
+  local size = (1 << 20) - 200
+  local function filled(item) return "[" .. (item .. ","):rep(size // (#item + 1) - 1) .. item .. "]" end
+  local function with(value) return ('{"jsonrpc":"2.0","id":1,"method":"get","params":{"fields":%s}}'):format(value) end
+  for name, line in pairs {
+    numbers = with(filled "1"), lists = with(filled "[]"), deep = with(filled(("["):rep(80) .. ("]"):rep(80))), objects = with(filled '{"a":1}'), batch = filled "{}",
+    blanks = with((" "):rep(size)), ["blanks after an id"] = '{"id":null,"a":' .. (" "):rep(size) .. "1}", ["null ids"] = filled '{"id":null}', quotes = with('"' .. ('\\"'):rep(size // 2) .. '"'),
+    brackets = ("["):rep(size), ["a string"] = '"' .. ("x"):rep(size) .. '"',
+  } do
+    for who, one in pairs {client = client, guest = guest} do
+      one.port:write(line)
+      loop.sleep(0.05)  -- the server has received it, except for its end
+      local began = os.clock()
+      one.port:write "\n"
+      t.ok(one.receive().error, name)
+      local cost = os.clock() - began
+      t.ok(cost < 0.1, ("%s of a %s: %.0f ms"):format(name, who, 1e3 * cost))
+    end
+  end
+end)
+
+test("a field that is read repeatedly in one request is made once, and results are limited", function(t)
+  local server <close>, world = serve()
+  local client = connect(server)
+  local function items(count, fields)
+    local list = {}
+    for i = 1, count do list[i] = {of = "barrett", fields = fields} end
+    return list
+  end
+  t.equal(client.get("read", {items = {{of = "mug", fields = {"mass", "robot", "mass"}}, {of = "", fields = {"time"}}, {fields = {}}}}), {{mass = world.objects[1].mass}, {time = 0}, {}})
+  client.get("grasp.find_virtual", {count_per_link = 100})
+  local began = os.clock()
+  client.port.max_line = 1 << 24
+  t.equal(#client.get("read", {items = items(30, {"virtual_contacts"})}), 30)
+  local response = client.call("read", {items = items(1000, {"virtual_contacts"})})
+  t.ok(os.clock() - began < 2)
+  t.equal(code(response), -32002)
+  t.ok(response.error.message:find "items%[%d+%]: the result has more than 4194304 bytes", response.error.message)
+  -- the answers to a batch, too: requests beyond the limit are refused, not run
+  local batch = {}
+  for i = 1, 9 do batch[i] = {jsonrpc = "2.0", id = i, method = "read", params = {items = items(30, {"virtual_contacts"})}} end
+  batch[10] = {jsonrpc = "2.0", id = 10, method = "body.mass", params = {body = "mug", mass = 5}}
+  client.port:write(json.encode(batch) .. "\n")
+  local responses = client.receive()
+  t.equal(#responses, 10)
+  t.ok(responses[1].result and responses[2].result)
+  t.equal(code(responses[10]), -32002)
+  t.ok(responses[10].error.message:find("the answers to the previous requests of this batch have more than 4194304 bytes", 1, true))
+  t.ok(world.objects[1].mass ~= 5)
+end)
+
+test("of several long lines only one is served in each round, and short ones meanwhile", function(t)
+  local server <close> = serve()
+  local short, clients, order, done = connect(server), {}, {}, 0
+  server.session:command {name = "test.note", reads = true, parameters = {{name = "who", type = "integer"}, {name = "rest", type = "string"}}, run = function(_, args) order[#order + 1] = args.who end}
+  for i = 1, 6 do clients[i] = connect(server) end
+  for i, client in ipairs(clients) do
+    local long = json.encode {jsonrpc = "2.0", id = 1, method = "test.note", params = {who = i, rest = ("x"):rep(9000)}} .. "\n"
+    client.port:send(long:rep(3))  -- all before the loop runs
+    loop.spawn(function()
+      for _ = 1, 3 do t.equal(client.receive().id, 1) end
+      done = done + 1
+    end)
+  end
+  while done < #clients do short.get("test.note", {who = 0, rest = ""}) end
+  -- each has one turn per round, and before each turn the short lines that have arrived
+  local turns = {}
+  for _, who in ipairs(order) do turns[#turns + 1] = who > 0 and who or nil end
+  for i = 1, 18 do t.equal(turns[i], (i - 1) % 6 + 1, table.concat(turns, " ")) end
+  -- batches share their turns
+  local batch = {}
+  for i = 1, 200 do batch[i] = {jsonrpc = "2.0", id = i, method = "world.list"} end
+  for _, client in ipairs(clients) do client.port:write(json.encode(batch) .. "\n") end
+  local received, waits = 0, {}
+  for _, client in ipairs(clients) do
+    loop.spawn(function()
+      t.equal(#client.receive(), 200)
+      received = received + 1
+    end)
+  end
+  while received < #clients do
+    local began = os.clock()
+    short.get "world.hash"
+    waits[#waits + 1] = os.clock() - began
+  end
+  table.sort(waits)
+  t.ok(#waits > 10 and waits[#waits // 2] < 0.02, ("%d waits, median %.1f ms"):format(#waits, 1e3 * waits[#waits // 2]))
+end)
+
+test("a job that ends just after a wait for it has timed out is noticed", function(t)
+  local jobs, wait = require "clench.control.rpc.jobs", loop.wait
+  local job, ended = {name = "stub", state = "running", events = function() return {} end}, 0
+  loop.wait = function(what, seconds)
+    if what ~= job then return wait(what, seconds) end
+    job.state = "done"
+    return false
+  end
+  local _ <close> = setmetatable({}, {__close = function() loop.wait = wait end})
+  local context = {server = {jobs = {}, job_count = 0}}
+  t.equal(jobs.keep(context, job, function(kept) ended = ended + (kept.job == job and 1 or 0) end), 1)
+  loop.sleep(0.01)
+  t.equal(ended, 1)
+end)
+
+test("the description of all methods follows the commands of the session", function(t)
+  local server <close> = serve()
+  local client, page = connect(server), connect(server)
+  local function names()
+    local out = {}
+    for i, method in ipairs(client.get "describe") do out[i] = method.name end
+    return out
+  end
+  local before = names()
+  t.equal(client.get("hello", {token = server.token}).methods, before)
+  t.equal(page.get "describe", client.get "describe")
+  server.session:command {name = "mine.first", label = "Mine", run = function() end}
+  local after = names()
+  t.equal(#after, #before + 1)
+  t.equal(client.get("hello", {token = server.token}).methods, after)
+  server.session:command {name = "mine.first", label = "Changed", run = function() end, replace = true}
+  t.equal(client.get("describe", {method = "mine.first"}).text, "Changed")
+  for _, method in ipairs(client.get "describe") do
+    if method.name == "mine.first" then t.equal(method.text, "Changed") end
   end
 end)
 

@@ -175,6 +175,9 @@ test("every wrong line is answered by one error line", function(t)
     ["moveDOFs 0 4 0x1 1 1 1 1 1 1 1"] = "Error: moveDOFs: expected a number, got 0x1",
     ["moveDOFs 0 4 1e999 1 1 1 1 1 1 1"] = "Error: moveDOFs: expected a number, got 1e999",
     ["getContacts 4 ALL"] = "Error: getContacts: expected 1 to 3 data items, got 4",
+    ["getBodyName 11" .. (" 0"):rep(11)] = "Error: getBodyName: expected at most 10 indices, got 11",
+    ["getContacts 3 5000" .. (" 0"):rep(5000)] = "Error: getContacts: expected at most 10 indices, got 5000",
+    ["setDOFForces 2 0 0 4 1 1 1 1 4 1 1 1 1"] = "Error: setDOFForces: expected at most 1 indices, got 2",
     ["getContacts 1 999999999999 0"] = "Error: getContacts: expected 999999999999 indices, got 1",
     ["getContacts 1 99999999999999999999"] = "Error: getContacts: expected ALL or the number of indices below 2^63",
     ["getContacts"] = "Error: getContacts: expected the number of data items, 1 to 3, got the end of the line",
@@ -224,6 +227,17 @@ test("clients are served in the order of connection, in turns of one line", func
   t.equal(#order, 6)
   for _, item in ipairs(order) do t.close(tonumber(item[2]), item[1] / 10, 1e-8) end
   t.close(world.robots[1].dofs[1], 0.3, 1e-12)  -- the last one of the last round
+end)
+
+test("a command has at most 65536 bytes", function(t)
+  local server <close>, _, hand = serve()
+  local _, ask = connect(server)
+  t.equal(ask("getRobotName" .. (" "):rep(65000) .. "1 0", 1), {hand.name})
+  local long = clench.port.connect("127.0.0.1", server.port)
+  long:write("getRobotName" .. (" "):rep(65536) .. "1 0\ngetRobotName 1 0\n")
+  t.equal(long:read_line(5), "Error: a line has more than 65536 bytes")
+  t.equal({long:read_line(5)}, {nil, "closed"})
+  t.equal(ask("getRobotName 1 0", 1), {hand.name})
 end)
 
 test("misbehaving clients are dropped, and others continue", function(t)

@@ -152,6 +152,15 @@ test("fields are read as RFC 9112 has them", function(t)
   t.equal(read("GET / HTTP/1.1\r\nHost: [::1]:70").fields.host, "[::1]:70")
   t.equal({read "GET / HTTP/1.1\r\nA B: c"}, {nil, 400, "line 2 is no header field"})
   t.equal({read "GET / HTTP/1.1\r\nHost : c"}, {nil, 400, "line 2 is no header field"})
+  t.equal({read "GET /?a&a HTTP/1.1\r\nHost: c"}, {nil, 400, "the parameter 'a' is given twice"})
+  -- every head of the permitted size is read in some milliseconds
+  local function repeated(text) return text:rep(16000 // #text) end
+  for _, head in ipairs {"GET / HTTP/1.1\r\nHost: a\r\nA: x" .. repeated " " .. "x", "GET /?" .. repeated "a" .. " HTTP/1.1\r\nHost: a", "GET /?" .. repeated "a=" .. " HTTP/1.1\r\nHost: a",
+                         "GET " .. repeated "/" .. " HTTP/1.1\r\nHost: a", "GET / HTTP/1.1\r\nHost: a\r\n" .. repeated ":", "GET / HTTP/1.1\r\nHost: " .. repeated "a", repeated "G", repeated "\r\n"} do
+    local began = os.clock()
+    read(head)
+    t.ok(os.clock() - began < 0.1, ("%.0f ms: %s"):format(1e3 * (os.clock() - began), head:sub(1, 40)))
+  end
 end)
 
 test("a WebSocket needs the token, an origin that is this page, and the right fields", function(t)

@@ -140,6 +140,24 @@ for _, name in ipairs(names) do
       kind.check(t, driver, device)
     end)
 
+    test(name .. ": closing repeats the stop until a device on a bad line confirms it", function(t)
+      for seed = 1, 5 do
+        local device <close> = simulate(name, {seed = seed})
+        local driver = kind.connect(device.path, kind.quick, 100)
+        kind.command(driver)
+        device.flip_bytes, device.lose_bytes = 0.04, 0.01
+        t.equal(driver:close(), true, seed)
+        t.ok(kind.stopped(device), seed)
+        t.equal(driver:close(), true)
+      end
+      local device <close> = simulate(name)
+      local driver = kind.connect(device.path, kind.quick, 5)
+      device.lose_bytes = 1
+      local problems, stopped = clench.log.collect(function() return driver:close() end)
+      t.equal(stopped, false)
+      t.ok(problems[1].text:find("devices." .. name .. ": the device at " .. device.path .. " has not confirmed that it has stopped", 1, true), problems[1].text)
+    end)
+
     test(name .. ": it stops when a script ends or fails", function(t)
       for _, ending in ipairs {"driver:close()", "error 'x'", "driver = nil collectgarbage()"} do
         local device <close> = simulate(name)
@@ -180,7 +198,8 @@ test("Barrett: faults of the hand are reported with their numbers", function(t)
   hand:move {math.pi, 2.51327, 0, 1.256635}
   t.equal({device.motors.S.P, device.motors["1"].P, device.motors["3"].P}, {3150, 17800, 8900})
   t.fails(function() hand:open "4" end, "motors: expected letters of 1, 2, 3 and S")
-  t.fails(function() hand:increment(0) end, "counts: expected a whole number other than 0")
+  t.fails(function() hand:increment(0) end, "counts: expected a whole number other than 0, from -17800 to 17800, got 0")
+  t.fails(function() hand:torque "shut" end, "direction: expected 'close' or 'open', got 'shut'")
 end)
 
 test("Barrett: a stop that the hand does not confirm is repeated, for a bounded time", function(t)
@@ -204,9 +223,21 @@ test("Barrett: a stop that the hand does not confirm is repeated, for a bounded 
   local problems
   problems, why = clench.log.collect(function() return devices.barrett {port = line.path, timeout = 0.05, attempts = 5}:close() end)
   t.equal({why, received}, {false, 5})
-  t.ok(problems[1].text:find("has not confirmed that its motors are off", 1, true), problems[1].text)
+  t.ok(problems[1].text:find("has not confirmed that it has stopped", 1, true), problems[1].text)
   t.equal(devices.barrett {port = line.path, timeout = 1, attempts = 1000}:close(), false)
   t.ok(clench.clock() - began < 20)
+end)
+
+test("Barrett: closing stops the hand also while another coroutine waits for its reply", function(t)
+  local device <close> = simulated.barrett {}
+  local hand = devices.barrett {port = device.path}
+  hand:initialize()
+  device.move_time = 0.2
+  loop.spawn(function() pcall(hand.home, hand) end)
+  loop.run(0.05)
+  t.equal(device.stops, 0)
+  t.equal(hand:close(), true)
+  t.ok(device.stops > 0)
 end)
 
 test("Dynamixel: packets are those of the protocol's description", function(t)
@@ -229,6 +260,68 @@ test("Dynamixel: packets are those of the protocol's description", function(t)
   t.equal(found.parameters, body:sub(3))
   local broken = whole:sub(1, 10) .. "\1" .. whole:sub(12)
   t.equal({packet.decode(broken, 1)}, {nil, 2, true})
+end)
+
+-- the worked examples of the manual of protocol 2.0; those of status packets are answers of XM430-W210 motors
+local published = [[
+FF FF FD 00 01 07 00 02 00 00 02 00 21 51
+FF FF FD 00 FE 03 00 01 31 42
+FF FF FD 00 01 07 00 55 00 06 04 26 65 5D
+FF FF FD 00 02 07 00 55 00 06 04 26 6F 6D
+FF FF FD 00 01 04 00 55 00 A1 0C
+FF FF FD 00 01 09 00 04 68 00 C8 00 00 00 AE 8E
+FF FF FD 00 01 03 00 05 02 CE
+FF FF FD 00 01 04 00 06 01 A1 E6
+FF FF FD 00 01 03 00 08 2F 4E
+FF FF FD 00 01 08 00 10 01 44 58 4C 22 B1 DC
+FF FF FD 00 FE 11 00 83 74 00 04 00 01 96 00 00 00 02 AA 00 00 00 82 87
+FF FF FD 00 FE 0D 00 92 01 90 00 02 00 02 92 00 01 00 1A 05
+FF FF FD 00 01 06 00 55 00 77 00 C3 69
+FF FF FD 00 02 05 00 55 00 24 8B A9
+FF FF FD 00 FE 10 00 93 01 20 00 02 00 A0 00 02 1F 00 01 00 50 B7 68]]
+
+test("Dynamixel: checksums are those of all examples of the protocol's manual, in the driver and in the simulator", function(t)
+  local packet = require "clench.devices.dynamixel_packet"
+  local function bytes(hex) return (hex:gsub("%x%x ?", function(pair) return string.char(tonumber(pair:sub(1, 2), 16)) end)) end
+  local count = 0
+  for hex in published:gmatch "[^\n]+" do
+    local whole = bytes(hex)
+    t.equal(packet.crc(whole:sub(1, -3)), string.unpack("<I2", whole, #whole - 1), hex)
+    count = count + 1
+  end
+  t.equal(count, 15)
+  -- the simulated motors answer as the real ones: a write, a sync write, and a sync read of positions 166 and 2079
+  local device <close> = simulated.dynamixel {ids = {1, 2}, speed = 1e-9}
+  local line <close> = clench.port.serial {path = device.path, baud = 57600}
+  device.motors[1].position, device.motors[2].position = 166, 2079
+  for _, case in ipairs {
+    {"FF FF FD 00 01 09 00 03 74 00 00 02 00 00 CA 89", "FF FF FD 00 01 04 00 55 00 A1 0C"},
+    {"FF FF FD 00 01 07 00 02 84 00 04 00 1D 15", "FF FF FD 00 01 08 00 55 00 A6 00 00 00 8C C0"},
+    {"FF FF FD 00 FE 11 00 83 74 00 04 00 01 96 00 00 00 02 AA 00 00 00 82 87", ""},
+    {"FF FF FD 00 FE 09 00 82 84 00 04 00 01 02 CE FA", "FF FF FD 00 01 08 00 55 00 A6 00 00 00 8C C0 FF FF FD 00 02 08 00 55 00 1F 08 00 00 BA BE"},
+  } do
+    line:write(bytes(case[1]))
+    local answer = bytes(case[2])
+    t.equal(answer ~= "" and line:read(#answer, 5) or "", answer, case[1])
+  end
+  t.equal({device.motors[1].memory[116], device.motors[2].memory[116]}, {0x96, 0xAA})
+end)
+
+test("Barrett: an error is accepted once it is repeated, and an echo must be complete", function(t)
+  local line <close> = clench.port.pty()
+  local replies = {"FGET P\r\nERR 2\r\n=> ", "FGET P\r\n0 0 0 0\r\n=> ", "FGET P123SFGET P\r\nERR 2\r\n=> ", "FGET P\r\n0 0 0 0\r\n=> ",
+                   "FGET P\r\nERR 2\r\n=> ", "FGET P\r\nERR 2\r\n=> "}
+  loop.spawn(function()
+    for _, reply in ipairs(replies) do
+      if not line:read_until "\r" then return end
+      line:send("123S" .. reply)
+    end
+  end)
+  local hand = devices.barrett {port = line.path}
+  t.equal(hand:read(), {0, 0, 0, 0})
+  t.fails(function() hand:read() end, "the hand reports error 2 after 123SFGET P")
+  line:close()
+  hand:close()
 end)
 
 test("Dynamixel: the watchdog stops motors without packets, and new goals set it again", function(t)

@@ -181,15 +181,31 @@ test("films are pictures, a GIF, or videos made by ffmpeg", function(t)
     t.equal(file_bytes(path):sub(2, 4), "PNG")
     os.remove(path)
   end
-  -- a program that writes its arguments
-  local program = test.path("", "#!/bin/sh\necho \"$@\" > build/ffmpeg_asked\n")
-  os.execute("chmod +x " .. program)
-  t.equal(film:save("build/it's a film.mp4", {size = {64, 48}, ffmpeg = program, speed = 0.5}), 7)
+  -- a program that writes its arguments, and a film
+  local function program(lines)
+    local path = test.path("", "#!/bin/sh\n" .. lines .. "\n")
+    os.execute("chmod +x " .. path)
+    return path
+  end
+  local good = program 'echo "$@" > build/ffmpeg_asked\nfor last do :; done\nprintf film > "$last"'
+  local function save(path, name) return film:save(path, {size = {64, 48}, ffmpeg = name, speed = 0.5}) end
+  for _, path in ipairs {"build/it's a film.mp4", "-12:30.mp4"} do
+    t.equal(save(path, good), 7)
+    t.equal(file_bytes(path), "film")
+    os.remove(path)
+  end
   local asked = file_bytes "build/ffmpeg_asked"
-  t.ok(asked:find("-framerate 10 ", 1, true) and asked:find("-frames:v 7", 1, true) and asked:find("build/it's a film.mp4", 1, true))
-  clench.files.save_text(program, "#!/bin/sh\nexit 3\n")
-  os.execute("chmod +x " .. program)
-  t.fails(function() film:save("build/a.mp4", {size = {64, 48}, ffmpeg = program}) end, "could not write 'build/a.mp4' and ended with code 3")
+  t.ok(asked:find("-framerate 10 ", 1, true) and asked:find("-frames:v 7", 1, true) and asked:find " %./%.[%w_]+%.mp4\n$")
+  -- a film that fails leaves the old one
+  clench.files.save_text("build/a.mp4", "old")
+  local partial = 'for last do :; done\nprintf part > "$last"\n'
+  t.fails(function() save("build/a.mp4", program(partial .. "exit 3")) end, "could not write 'build/a.mp4' and ended with code 3")
+  t.fails(function() save("build/a.mp4", program "exit 0") end, "has not written 'build/a.mp4'")
+  t.fails(function() save("build/no/a.mp4", good) end, "build/no/a.mp4: the file cannot be written: no such folder: build/no")
+  t.equal(file_bytes "build/a.mp4", "old")
+  os.remove "build/a.mp4"
+  local left <close> = io.popen "ls -A build | grep '^\\.lua_.*mp4$'"
+  t.equal(left:read "a", "")
 end)
 
 test("in Chromium a recorded run plays in 3-D", function(t)

@@ -137,7 +137,7 @@ test("signs and offsets of a mirror apply in both directions, and wrong options 
   fails("device", 5, "device: expected a driver")
   fails("signs", {1, 2}, "signs[2] must be 1 or -1, got 2")
   fails("offsets", {1}, "offsets must be a list of 2 numbers")
-  fails("dofs", {2, 2}, "dofs[2] must be another number from 1 to 4, got 2")
+  fails("dofs", {2, 2}, "dofs[2] must be a number from 1 to 4, different from the others, got 2")
   fails("limits", {{0, 1}, {1, 0}}, "limits[2] must be a range {low, high}")
   fails("max_speed", 0, "max_speed must be a number > 0")
 end)

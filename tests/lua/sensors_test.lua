@@ -226,3 +226,58 @@ test("clients of a server use devices, but connect none", function(t)
   end
   t.equal(session.sensors.glove, nil)
 end)
+
+test("postures of fingertips refine a calibration, and are saved and loaded", function(t)
+  local session = clench.session(clench.world())
+  session:run("world.import_robot", {path = "models/hands/human/human20.cfg"})
+  t.ok(session.hand)
+  local hand, random = session.hand, clench.random(1)
+  t.fails(function() session:run("sensors.calibrate_tips", {tips = {"a", "b"}, refine = {17}}) end, "the glove is not calibrated")
+  local tips = {hand.chains[5].links[3].name, hand.chains[1].links[3].name}
+  -- true: 0.4 rad at 100 counts; the calibration is wrong by 0.1 rad in the thumb
+  local known, wrong = {slopes = {}, intercepts = {}}, {slopes = {}, intercepts = {}}
+  for d = 1, 20 do
+    known.slopes[d], wrong.slopes[d], known.intercepts[d], wrong.intercepts[d] = {}, {}, 0, d == 18 and 0.1 or 0
+    for s = 1, 22 do
+      known.slopes[d][s] = s == d and 0.002 or 0
+      wrong.slopes[d][s] = known.slopes[d][s]
+    end
+  end
+  local measure = clench.devices.calibrate_tips {hand = hand, calibration = known, samples = (function()
+    local list = {}
+    for i = 1, 6 do
+      list[i] = {sensors = {}, distance = 0}
+      for s = 1, 22 do list[i].sensors[s] = random:integer(1, 255) end
+    end
+    return list
+  end)(), tips = tips, refine = {1}, shell = 0}
+  t.ok(measure.tips.rms > 0)
+  session.sensors.calibration = wrong
+  session.sensors.glove = {kind = "glove", path = "/dev/glove", state = "connected", count = 1}
+  local function vertex(name)
+    local far = clench.vec3(0, 0, 0)
+    for _, v in ipairs(hand:link(name).mesh.vertices) do
+      if clench.vec3(v[1], v[2], v[3]):norm() > far:norm() then far = clench.vec3(v[1], v[2], v[3]) end
+    end
+    return hand:link(name).pose * far
+  end
+  local posture = hand.dofs
+  for _ = 1, 20 do
+    local raw = {}
+    for s = 1, 22 do raw[s] = random:integer(1, 255) end
+    session.sensors.glove.reading = raw
+    hand:set_dofs(clench.devices.glove_map {hand = hand, calibration = known} (raw))
+    session:run("sensors.record_posture", {distance = (vertex(tips[1]) - vertex(tips[2])):norm() - 0.008})
+  end
+  hand:set_dofs(posture)
+  t.fails(function() session:run("sensors.record_posture", {distance = 0, dofs = posture}) end, "a posture has either dofs or a distance")
+  t.fails(function() session:run("sensors.calibrate", {sensors_of = {{1}}}) end, "fewer than two postures were recorded")
+  local path = test.path()
+  session:run("sensors.save_postures", {path = path})
+  session:run "sensors.clear_postures"
+  t.fails(function() session:run("sensors.calibrate_tips", {tips = tips, refine = {18}}) end, "fewer than 6 postures with a distance of two fingertips were recorded")
+  t.equal(session:run("sensors.load_postures", {path = path}), 20)
+  local report = session:run("sensors.calibrate_tips", {tips = tips, refine = {17, 18, 19, 20}})
+  t.ok(report.max < 1e-9, report.max)
+  t.close(session.sensors.calibration.intercepts, known.intercepts, 1e-8)
+end)

@@ -345,6 +345,29 @@ test("files are checked, converted, saved and drawn by commands", function(t)
   t.ok(not session:is_modified())
 end)
 
+test("a hand is mounted on an arm and dismounted like by the functions, and the script repeats it", function(t)
+  local session = clench.session()
+  session:run "world.new"
+  t.equal({session.commands["body.mount"].enabled(session)}, {false, "there is no other robot"})
+  session:run("world.import_robot", {path = "models/arms/ur5/ur5.cfg"})
+  session:run("world.import_robot", {path = "models/hands/parallel_jaw/parallel_jaw.cfg", options = {pose = {xyz = {0.5, 0.5, 0}}}})
+  local arm, hand = session.world.robots[1], session.world.robots[2]
+  t.equal({session.commands["body.dismount"].enabled(session)}, {false, "no robot is mounted"})
+  session:run("body.mount", {on = arm.name, pose = {xyz = {0, 0, 0.01}}})
+  t.equal(hand.parent == arm, true)
+  local other = clench.world()
+  local other_arm, other_hand = other:add_robot "models/arms/ur5/ur5.cfg", other:add_robot "models/hands/parallel_jaw/parallel_jaw.cfg"
+  other_hand:mount_on(other_arm, {pose = {xyz = {0, 0, 0.01}}})
+  t.equal(hand.pose == other_hand.pose, true)
+  t.equal(replayed(session):hash(), session.world:hash())
+  local mounted = hand.pose
+  session:run "body.dismount"
+  t.equal(hand.parent, nil)
+  t.equal(hand.pose == mounted, true)
+  t.equal(replayed(session):hash(), session.world:hash())
+  t.fails(function() session:run("body.mount", {on = hand.name}) end, "body.mount: on: expected another robot than '" .. hand.name .. "'")
+end)
+
 -- a world with a table, whose top is 550 mm square and 450 mm high
 local function at_a_table()
   local session = clench.session()
@@ -427,4 +450,15 @@ test("bodies are put on others: straight down, or at the nearest free spot", fun
     if robot.parent then hand = robot else puma = robot end
   end
   t.fails(function() other:run("body.place_on", {body = hand.name}) end, ("'%s' is mounted on '%s'"):format(hand.name, puma.name))
+end)
+
+test("the current hand of a world is its first robot with fingers, not the arm that carries it", function(t)
+  local session = clench.session()
+  session:open("worlds/puma_barrett_glass.wld", {root = "."})
+  t.equal(session.world.robots[1].name, "puma560")
+  t.equal(session.hand.name, "barrett")
+  session:run("body.remove", {body = "barrett"})
+  t.equal(session.hand.name, "puma560")
+  session:undo()
+  t.equal(session.hand.name, "barrett")
 end)

@@ -122,5 +122,44 @@ test("bad phases are refused by name", function(t)
   t.fails(play {{kind = "squeeze"}}, "phases[1]: expected {kind = \"approach\", \"posture\" or \"close\"}, got 'squeeze'")
   t.fails(play {{kind = "close"}, {kind = "approach"}}, "phases[2].reach: expected a number, got nothing")
   t.fails(play {{kind = "close", speed = 2}}, "phases[1]: unknown key 'speed'")
+  t.fails(play {kind = "close"}, "phases: expected a list, got a table with names")
   t.fails(play({}, {pose = 3}), "pregrasp: expected {pose = a pose, dofs = a list of numbers}")
+end)
+
+test("names and notes that no file can store are refused", function(t)
+  local session = clench.session()
+  session:open("worlds/barrett_mug.wld", {root = "."})
+  session:run "grasp.autograsp"
+  local function author(name, notes) return function() session:run("grasp.author", {name = name, notes = notes}) end end
+  t.fails(author "", "grasp.author: name: expected a name, got ''")
+  t.fails(author "a\0b", "grasp.author: name: expected UTF-8 without control characters, got ")
+  t.fails(author "\xff", "grasp.author: name: expected UTF-8 without control characters, got ")
+  t.fails(author("a", "\0"), "grasp.author: notes: expected UTF-8 without zero bytes, got ")
+  t.equal(session.authored, nil)
+  author("é ## '\"]]", "one\ntwo\t\"'")()
+  session:run("grasp.save_grasps", {path = "build/odd_names.jsonl", grasps = session.authored})
+  local labels = clench.grasps("build/odd_names.jsonl")[1].labels
+  t.equal({labels.name, labels.notes}, {"é ## '\"]]", "one\ntwo\t\"'"})
+end)
+
+test("damaged phases of a grasp are reported, and the panel works on", function(t)
+  local session = clench.session()
+  session:open("worlds/barrett_mug.wld", {root = "."})
+  session:run "grasp.autograsp"
+  session:run("grasp.author", {name = "a"})
+  local view = clench.view.offscreen {session = session, size = {1070, 1400}}
+  view:frame()
+  view:click_label "Author"
+  for _, damaged in ipairs {"{", "7", "[1]", '[{"kind":"approach"}]', '[{"kind":"posture","dofs":7}]', '{"kind":"close"}', "[null]"} do
+    session.authored[1].labels = {name = "a", phases = damaged}
+    view.status = "Ready"
+    for _, item in ipairs(view:items()) do
+      if item.label:find "^a  0%." then view:click(item.x + 10, item.y + 5) break end
+    end
+    t.equal(view.author.phases, {})
+    t.ok(view.status ~= "Ready")
+    view:click_label "+ Close"
+    t.equal(view.author.phases, {{kind = "close"}})
+  end
+  view:close()
 end)

@@ -150,6 +150,47 @@ test("two clicks measure a distance, three an angle", function(t)
   view:close()
 end)
 
+test("Escape and a click on nothing end a measurement, and each tool says how it is used", function(t)
+  local _, view = open()
+  view:key "5"
+  t.equal(view.status, "Measure: click on a point")
+  view:click(300, 120)
+  view:click(330, 120)
+  t.equal(#view.measured, 2)
+  view:key "escape"
+  t.equal(#view.measured, 0)
+  t.equal(view.status, "Measure: click on a point")
+  for _, name in ipairs(view.tools) do
+    view:tool(name)
+    t.equal(view.status:match "^(%a+): ", name)
+  end
+  view:close()
+end)
+
+-- a frame that takes so long that the mouse comes from elsewhere and is pressed within it
+local function press_from_afar(view, x, y, code)
+  view.ui:input {kind = "move", x = 20, y = 20}
+  view:frame()
+  view.ui:input {kind = "move", x = x, y = y}
+  view.ui:input {kind = "button", code = code, down = true}
+  view:frame()
+  view.ui:input {kind = "button", code = code, down = false}
+  view:frame()
+end
+
+test("the way of the mouse to the place of a press moves neither the camera nor a body", function(t)
+  local session, view = open()
+  local before, hash = view.camera, session.world:hash()
+  for code = 0, 2 do press_from_afar(view, 320, 160, code) end
+  t.ok(same(view.camera, before))
+  view:tool "Translate"
+  press_from_afar(view, 320, 160, 0)
+  t.equal(session.selection[1] == session.world:robot "barrett" or session.selection[1].robot == session.world:robot "barrett", true)
+  t.equal(session.world:hash(), hash)
+  t.ok(same(view.camera, before))
+  view:close()
+end)
+
 test("measured points move with their bodies, and vanish with them", function(t)
   local session, view = open()
   local mug, hand = session.object, session.hand

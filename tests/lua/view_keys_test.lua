@@ -140,6 +140,43 @@ test("edges of the panels are dragged, within limits, and the picture is not", f
   view:close()
 end)
 
+test("the edge between two panels of a column is dragged, and kept", function(t)
+  local session, view = open()
+  local file = os.tmpname()
+  local kept = preferences.keep(view, file)
+  local camera = view.camera
+  local function top_of(label)
+    view:frame()
+    for _, item in ipairs(view:items()) do
+      if item.label == label and item.kind == "window" then return item.y end
+    end
+  end
+  local before, edge = top_of "Grasp Quality", view.edges["within left"]
+  view:drag(100, edge.at + 2, 100, edge.at + 62)
+  t.close(top_of "Grasp Quality", before + 60, 1.01)
+  view:drag(100, edge.at + 62, 100, 690)
+  t.close(view.shares.left, 0.85, 1e-12)
+  t.equal(view.shares.right, nil)
+  t.ok(view.camera == camera)
+  -- a tall panel keeps the user's share
+  local right = view.edges["within right"]
+  view:drag(800, right.at + 2, 800, right.at - 58)
+  local share = view.shares.right
+  view:click_label "Author"
+  t.equal(view.shares.right, share)
+  t.close(view.edges["within right"].at, right.at - 60, 1.01)
+  kept.finish()
+  view:close()
+  local other = clench.view.offscreen {session = session, size = {900, 700}}
+  preferences.keep(other, file)
+  t.close(other.shares.right, share, 1e-12)
+  clench.files.save_text(file, '{"shares": {"left": 0.99, "right": "half", "bottom": 0.5}}')
+  preferences.keep(other, file)
+  t.equal(other.shares, {})
+  other:close()
+  os.remove(file)
+end)
+
 test("on a monitor of twice the resolution bars and panels are twice as large, and do not cover each other", function(t)
   local session = clench.session()
   session:open("worlds/barrett_mug.wld", {root = "."})
@@ -179,7 +216,7 @@ test("keys, navigation, sizes and the panel in front are kept, and damaged value
   t.equal(bindings.find(other, "ctrl+k").name, "grasp.autograsp")
   t.equal(other.navigation, "Blender")
   t.equal(other.sizes, {left = 264, right = 264, bottom = 250})
-  t.equal(other.front, {right = "Friction"})
+  t.equal(other.front, {bottom = "Console", right = "Friction"})
   other:close()
   clench.files.save_text(file, '{"keys": {"exit": "ctrl+nokey", "home": 3, "panels": false}, "sizes": {"left": "wide", "right": -5, "bottom": 1e9}, "front": [1], "navigation": "Maya"}')
   other = clench.view.offscreen {session = session, size = {900, 700}}
@@ -188,5 +225,73 @@ test("keys, navigation, sizes and the panel in front are kept, and damaged value
   t.equal(other.sizes, {left = 264, right = 264, bottom = 190})
   t.equal(other.navigation, "Original")
   other:close()
+  os.remove(file)
+end)
+
+test("the command palette is in front of the panels of a small window, and arrow keys choose in it", function(t)
+  local session = clench.session()
+  session:open("worlds/barrett_mug.wld", {root = "."})
+  local view = clench.view.offscreen {session = session, size = {640, 480}}
+  view:frame()
+  view:key "ctrl+p"
+  view:type "auto"
+  local entries = {}
+  for _, item in ipairs(view:items()) do
+    if item.window == "Command Palette" and item.label:find "^Auto" then entries[#entries + 1] = item end
+  end
+  t.equal(entries[1].label:match "^Auto Grasp", "Auto Grasp")
+  t.ok(entries[1].x < view.sizes.left - 20, entries[1].x)
+  view:click(entries[1].x + 5, entries[1].y + entries[1].height / 2)
+  t.equal(view.palette, nil)
+  t.equal(session.history.done[#session.history.done].label, "Auto Grasp")
+  view:key "ctrl+p"
+  view:type "auto"
+  view:key "down"
+  view:key "down"
+  view:key "up"
+  view:key "enter"
+  t.equal(session.history.done[#session.history.done].label, entries[2].label:match "^%u%l+ %u%l+")
+  view:close()
+end)
+
+test("a narrow window has the choices of the tool bar, and commands in the menus only", function(t)
+  local session = clench.session()
+  session:open("worlds/barrett_mug.wld", {root = "."})
+  for _, width in ipairs {800, 1070} do
+    local view = clench.view.offscreen {session = session, size = {width, 600}}
+    local right, has_undo = 0, false
+    for _, item in ipairs(view:items()) do
+      if item.window == "tool bar" then
+        right, has_undo = math.max(right, item.x + item.width), has_undo or item.label == "Undo"
+      end
+    end
+    t.ok(right < width, right)
+    t.equal(has_undo, width > 1000)
+    view:close()
+  end
+end)
+
+test("shortcuts edited by hand replace defaults; those that cannot work are named", function(t)
+  local _, view = open()
+  local file = os.tmpname()
+  local function apply(text)
+    clench.files.save_text(file, text)
+    view.lines = {}
+    bindings.reset(view)
+    preferences.keep(view, file)
+    local lines = {}
+    for i, line in ipairs(view.lines) do lines[i] = line.text end
+    return table.concat(lines, "\n")
+  end
+  t.equal(apply '{"keys": {"seek": "ctrl+p", "home": "shift+ctrl+h"}}', "")
+  t.equal(bindings.find(view, "ctrl+p").name, "seek")
+  t.equal(bindings.find(view, "ctrl+shift+h").name, "home")
+  t.equal(bindings.shown(view, "palette"), "")
+  local said = apply '{"keys": {"home": "k", "seek": "k", "exit": "ctrl+nokey", "panels": 3}}'
+  t.ok(said:find("keys: seek: 'k' belongs to 'home'", 1, true))
+  t.ok(said:find("keys: exit: .*unknown key 'nokey'"))
+  t.ok(said:find("keys: panels: expected a shortcut, or false, got 3", 1, true))
+  t.equal(view.bindings, {home = "k"})
+  view:close()
   os.remove(file)
 end)

@@ -1,5 +1,6 @@
 -- The life of a view: the question about unsaved changes, and data kept from one run to the next.
 local test, clench = require "test", require "clench"
+local paths = require "clench.view.paths"
 
 -- a small world from a new file
 local function open()
@@ -165,6 +166,53 @@ test("work left by an ended process is offered and restored", function(t)
   os.remove(folder)
 end)
 
+test("work of a process that has ended is offered even while its parent has not noticed", function(t)
+  local folder = new_folder()
+  os.execute(("mkdir '%s'"):format(folder))
+  local ended <close> = io.popen "echo $$"  -- until it is closed, it is a zombie
+  local id = ended:read "l"
+  local function stat() return text_at(("/proc/%s/stat"):format(id)) end
+  local last = clench.clock() + 20
+  while not stat():find "%) Z " and clench.clock() < last do end
+  local start = stat():match("%)" .. (" %S+"):rep(19) .. " (%S+)")
+  clench.files.save_text(folder .. "/autosave-1.lua", ('-- autosave {"id":"%s","start":"%s","time":"now"}\n\n\nlines\n'):format(id, start))
+  t.equal(#autosave.left(folder), 1)
+  os.execute(("rm -r '%s'"):format(folder))
+end)
+
+test("of several viewers that start to store at once, each has a name of its own", function(t)
+  local folder = new_folder()
+  local file = folder .. "/new/autosave-1.lua"
+  local user_files = require "clench.view.user_files"
+  t.ok(user_files.claim(file))
+  t.ok(not user_files.claim(file))
+  t.ok(not user_files.claim(folder))
+  t.ok(user_files.claim "/dev/full/autosave-1.lua")
+  t.ok(user_files.claim "/proc/autosave-1.lua")
+  os.execute(("rm -r '%s'"):format(folder))
+end)
+
+test("Discard removes what was offered, and nothing that has its name since", function(t)
+  local session, view, path = open()
+  local folder = new_folder()
+  local file = folder .. "/autosave-1.lua"
+  os.execute(("mkdir '%s'"):format(folder))
+  local ended = '-- autosave {"id":"999999999","start":"1","time":"now"}\n\n\n'
+  for _, of_another in ipairs {false, true} do
+    clench.files.save_text(file, ended)
+    view.left = autosave.left(folder)
+    if of_another then clench.files.save_text(file, "of another viewer") end
+    view:frame()
+    view:frame()
+    view:click_label "Discard"
+    t.equal(#view.left, 0)
+    t.equal(text_at(file), of_another and "of another viewer" or nil)
+  end
+  view:close()
+  os.remove(path)
+  os.execute(("rm -r '%s'"):format(folder))
+end)
+
 test("a full disk is reported once in the console", function(t)
   local session, view, path = open()
   local kept = autosave.keep(view, "/dev/full")
@@ -215,7 +263,7 @@ test("settings and recent files are kept", function(t)
   kept.tick(0)
   view:close()
   local other = clench.view.offscreen {session = session, size = {640, 480}}
-  preferences.keep(other, file)
+  local again = preferences.keep(other, file)
   t.equal(other.dark, true)
   t.equal(other.units, {length = "mm", angle = "deg"})
   t.equal(other.hidden.Plots, true)
@@ -235,6 +283,10 @@ test("settings and recent files are kept", function(t)
   for _, label in ipairs {"File", "Open Recent", path} do other:click_label(label) end
   t.ok(is_shown(other, "no such file: " .. path))
   t.equal(#other.recent, 0)
+  session:run("world.save_as", {path = folder .. "/saved.wld"})
+  again.tick(1000)
+  t.equal(other.recent, {folder .. "/saved.wld"})
+  os.remove(folder .. "/saved.wld")
   other:close()
   os.remove(file)
   os.remove(folder)
@@ -244,9 +296,23 @@ test("damaged settings are named, and the defaults apply", function(t)
   local _, view, path = open()
   local file = os.tmpname()
   clench.files.save_text(file, "{")
-  preferences.keep(view, file)
+  local kept = preferences.keep(view, file)
   t.ok(view.lines[1].text:find(file, 1, true) and view.lines[1].text:find("starts with its defaults", 1, true))
   t.equal(view.dark, false)
+  kept.finish()
+  view:close()
+  t.equal(text_at(file .. ".damaged"), "{")
+  os.remove(file .. ".damaged")
+  os.remove(file)
+  os.remove(path)
+end)
+
+test("names of recent files with control characters are dropped, as no menu can show them", function(t)
+  local _, view, path = open()
+  local file = os.tmpname()
+  clench.files.save_text(file, '{"recent": ["/a\\u0000b.wld", "/c.wld"]}')
+  preferences.keep(view, file)
+  t.equal(view.recent, {path, "/c.wld"})
   view:close()
   os.remove(file)
   os.remove(path)
@@ -281,4 +347,27 @@ test("the session's script is written completely, or not at all", function(t)
   view:close()
   os.remove(file)
   os.remove(path)
+end)
+
+test("the files of an import are chosen from a list, which follows the text, and a planner's dialog ends with its world", function(t)
+  local session = clench.session()
+  session:open("worlds/barrett_mug.wld", {root = "."})
+  local view = clench.view.offscreen {session = session, size = {1070, 937}}
+  view:menu "Grasp/Planner…"
+  t.ok(view.dialogs["planner.primitive"])
+  view:menu "File/New"
+  view:frame()
+  t.equal(view.dialogs, {})
+  view:menu "File/Import Object…"
+  local known = clench.catalog().objects
+  t.equal(paths.choices(view, session.commands["world.import_object"], ""), known)
+  view:type "cyl"
+  t.equal(paths.choices(view, session.commands["world.import_object"], "cyl"), {"models/objects/cylinder.iv"})
+  view:click_label "models/objects/cylinder.iv"
+  t.equal(view.dialogs["world.import_object"].path, "models/objects/cylinder.iv")
+  view:click_label "OK"
+  t.equal(session.world.objects[1].name, "cylinder")
+  t.equal(paths.choices(view, session.commands["world.import_robot"], "arms"), clench.catalog().arms)
+  t.equal(paths.choices(view, session.commands["world.save_as"], ""), {})
+  view:close()
 end)

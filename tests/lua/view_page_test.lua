@@ -107,3 +107,33 @@ test("friction cones are orange where the hand touches the object, and there are
   local after = in_browser(t, world, {}, script)
   t.ok(after "cones".number > 20 and after "all".number < 2 * after "cones".number)
 end)
+
+test("a body that is replaced by another one of its name is shown with its own mesh", function(t)
+  local world = ball_world(0.1)
+  local film = world:record {rate = 100}
+  world:run(0.05)
+  world:remove(world.objects[1])
+  world:add_object(clench.shapes.box {x = 0.02, y = 0.02, z = 0.02}, {name = "ball", mass = 0.1, pose = {xyz = {0, 0, 0.1}}})
+  world:run(0.05)
+  local data = require "clench.page.run".data_of(film)
+  t.equal({#data.parts, #data.meshes}, {2, 2})
+  t.equal({data.parts[1].mesh, data.parts[2].mesh}, {0, 1})
+  -- seven numbers per part and frame, nan where the part is absent
+  local value = in_browser(t, world, {recording = film}, [==[
+    const shown = time => { showAt(time); return parts.map(mesh => Number(mesh.visible)).join(" "); };
+    tell.first = shown(times[0]);
+    tell.last = shown(times[times.length - 1]);
+  ]==])
+  local first, last = value "first", value "last"
+  t.equal({first.number, first.x}, {1, 0})
+  t.equal({last.number, last.x}, {0, 1})
+end)
+
+test("frames that are no grasps and no recorded run are refused", function(t)
+  local world = ball_world(0.1)
+  local function export(options) return function() clench.export_html(world, "build/refused.html", options) end end
+  t.fails(export {grasps = {1}}, "clench.export_html: grasps[1]: expected a grasp, got 1")
+  t.fails(export {grasps = {}}, "grasps: expected at least one, got none")
+  t.fails(export {recording = {}}, "recording: expected a recorded run of world:record, got ")
+  t.fails(export {recording = world:record {rate = 10}}, "recording: it is empty")
+end)

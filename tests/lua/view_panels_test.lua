@@ -269,6 +269,38 @@ test("the dialog of a planner that finds nothing shows why", function(t)
   view:close()
 end)
 
+test("print writes into the console, also in functions that fail, and Up and Down recall lines", function(t)
+  local _, view = open()
+  local before = print
+  local function enter(text)
+    for _, line in ipairs(view:items()) do
+      if line.kind == "input" and line.window == "bottom" then view:click(line.x + 10, line.y + line.height / 2) end
+    end
+    view:type(text)
+    view:key "enter"
+  end
+  enter "print(hand.name, 1 + 1)"
+  t.equal(view.lines[#view.lines].text, view.session.hand.name .. "\t2")
+  enter "(function() print 'so far' error 'no further' end)()"
+  local text = console_of(view)
+  t.ok(text:find "\nso far\n.*no further", text)
+  t.equal(print == before, true)
+  view:key "up"  -- the input has the keys again
+  t.ok(view.console_text:find "so far", view.console_text)
+  view:key "up"
+  t.equal(view.console_text, "print(hand.name, 1 + 1)")
+  view:key "up"
+  view:key "down"
+  view:key "down"
+  t.equal(view.console_text, "")
+  view:key "up"
+  view:key "up"
+  local count = #view.lines
+  view:key "enter"
+  t.equal(#view.lines, count + 2)
+  view:close()
+end)
+
 test("empty panels say what to do, and the inspector shows the facts of the world while nothing is selected", function(t)
   local session, view = open()
   view:frame()

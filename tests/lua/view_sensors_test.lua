@@ -21,7 +21,7 @@ end
 
 test("the panel Sensors connects a glove, shows its readings, and disconnects it", function(t)
   local session, view = open_panel()
-  t.ok(texts_of(view):find "\nBarrett hand\n")
+  t.ok(texts_of(view):find "\nReal hand\n")
   local device <close> = clench.devices.simulated.cyberglove {sensors = {20, 60}}
   view:menu "Sensors/Connect Glove…"
   view:frame()
@@ -63,5 +63,56 @@ test("buttons of the panel Sensors move the hand, and show the residuals of a ca
   session:run("sensors.calibrate", {sensors_of = {{1}}})
   -- the line through (30, 0.1), (50, 0.3), (70, 0.2) has residuals of 1/20, 1/10 and 1/20 rad
   t.ok(texts_of(view):find("\nresiduals within 0.100 rad (DOF 1)\n", 1, true), texts_of(view))
+  view:close()
+end)
+
+test("the dialog of a real hand has its driver, numbers and rate, and says which lines exist", function(t)
+  local session, view = open_panel()
+  local hint = require "clench.session.serial_lines".hint()
+  t.ok(texts_of(view):find("\nserial lines: " .. hint .. "\n", 1, true), texts_of(view))
+  view:menu "Sensors/Connect Real Hand…"
+  local texts = texts_of(view)
+  for _, label in ipairs {"path", "driver", "ids", "dofs", "signs", "offsets", "baud [bit/s]"} do t.ok(texts:find("\n" .. label .. "\n", 1, true), label) end
+  t.equal(view.dialogs["sensors.connect_hand"].hints.path, hint)
+  -- an error stays in the dialog
+  view:type "/dev/no_such_line"
+  view:click_label "OK"
+  t.ok(texts_of(view):find("/dev/no_such_line: No such file or directory; ", 1, true), texts_of(view))
+  view:click_label "Cancel"
+  local device <close> = clench.devices.simulated.robotiq {}
+  session:run("sensors.connect_hand", {path = device.path, driver = "robotiq", dofs = {2}})
+  local last = loop.time() + 60
+  while not session.sensors.hand.reading and loop.time() < last do loop.run(0.01) end
+  texts = texts_of(view)
+  t.ok(texts:find("\nRobotiq gripper, connected, " .. device.path .. "\n", 1, true), texts)
+  t.equal(texts:find("serial lines:", 1, true), nil)
+  view:close()
+end)
+
+test("the panel shows what each bird moves", function(t)
+  local session, view = open_panel()
+  local device <close> = clench.devices.simulated.flock {birds = 2, poses = {clench.pose {xyz = {0.3, 0.1, 0.2}}}}
+  session:run("sensors.connect_tracker", {path = device.path, birds = 2})
+  local last = loop.time() + 60
+  while not session.sensors.tracker.reading and loop.time() < last do loop.run(0.01) end
+  t.ok(texts_of(view):find("\nbird 1: barrett, absolute\n0.3000 m, 0.1000 m, 0.2000 m\n", 1, true), texts_of(view))
+  t.ok(texts_of(view):find("bird 2: moves nothing\n", 1, true))
+  local before = view.camera.eye
+  view:menu "Sensors/Tracker Mode…"
+  local state = view.dialogs["sensors.tracker_mode"]
+  view:frame()
+  view:type "2"  -- the first field with a text
+  state.mode, state.target = "relative", "camera"
+  view:click_label "OK"
+  t.ok(texts_of(view):find("bird 2: camera, relative\n", 1, true), texts_of(view))
+  device.poses[2] = clench.pose {xyz = {0.1, 0, 0}}
+  local count = session.sensors.tracker.count
+  while session.sensors.tracker.count < count + 2 and loop.time() < last do loop.run(0.01) end
+  view:click_label "Follow"
+  loop.run(0.05)
+  -- along its own x, the direction of view
+  local towards = (view.camera.target - before):unit()
+  t.close((view.camera.eye - before - towards * 0.1):norm(), 0, 1e-3)
+  view:click_label "Stop Following"
   view:close()
 end)

@@ -142,5 +142,55 @@ test("a recorded run is saved as a film; without one there is nothing to save", 
   t.ok(#file:read "a" > 100000)
   os.remove(path)
   t.fails(function() session:run("dynamics.save_film", {path = "run.txt"}) end, "ends in .html, .gif, .mp4 or .png")
+  -- the run of another world is not that of the open one
+  session:run "world.new"
+  t.fails(function() session:run("dynamics.save_film", {path = path}) end, "no run was recorded")
+  session:undo()
+  t.ok(session.commands["dynamics.save_film"].enabled(session))
+  view:close()
+end)
+
+test("a run that is too short to be recorded, and one that is slower than real time, are described as such", function(t)
+  local session, view = open()
+  item(view, "Runs of the dynamics are recorded, and can be replayed here.")
+  run(session, view, "dynamics.run", {seconds = 0.01})
+  item(view, "The last run was too short to be recorded: states are stored 30 times per simulated second.")
+  view:click_label "Play Dynamics"
+  session.playing.began = loop.time() - 100
+  loop.run(0.03)
+  view:frame()
+  local found = ""
+  for _, widget in ipairs(view:items()) do found = widget.label:match "^recording, .*" or found end
+  local share = tonumber(found:match "^recording, [%d.]+ s, at ([%d.e-]+) of real time$")
+  t.ok(share and share > 0 and share < 0.02, found)
+  view:click_label "Pause Dynamics"
+  view:close()
+end)
+
+test("curves of quality, forces and motor efforts have a point per change, of another world none", function(t)
+  local session, view = open()
+  session:run "grasp.open"
+  view:frame()
+  session:run("dynamics.close_hand", {})
+  for _ = 1, 3 do run(session, view, "dynamics.run", {seconds = 0.05}) end
+  local hand, largest, force = session.hand, 0, 0
+  for _, effort in ipairs(hand.dof_efforts) do largest = math.max(largest, math.abs(effort)) end
+  for _, contact in ipairs(session.world:contacts(hand, session.object)) do force = force + contact.force:norm() end
+  local count = #view.curves.effort
+  t.ok(count >= 5, count)
+  t.ok(largest > 0, largest)
+  t.equal(view.curves.effort[count], largest)
+  t.equal(view.curves.force[count], force)
+  t.equal(view.curves.contacts[count], #view.quality.contacts)
+  t.equal(view.curves.epsilon[count], view.quality.measures.epsilon or 0)
+  view:frame()
+  t.equal(#view.curves.effort, count)
+  view:click_label "Plots"
+  local plots = 0
+  for _, widget in ipairs(view:items()) do plots = plots + (widget.kind == "plot" and 1 or 0) end
+  t.equal(plots, 4)
+  session:open("worlds/parallel_jaw_cube.wld", {root = "."})
+  view:frame()
+  t.ok(#view.curves.effort <= 1, #view.curves.effort)
   view:close()
 end)

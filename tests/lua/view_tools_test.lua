@@ -48,6 +48,8 @@ test("an arrow moves only along its axis, and stops at contact, like move_to", f
   copy:move_to {xyz = start - clench.vec3(0, 0, 0.3)}
   t.close(mug.pose.position.z, copy.pose.position.z, 1e-3)
   t.ok(view.status:find "touches", view.status)
+  -- the displacement that contact has left
+  t.close(tonumber(view.status:match "^z ([+-][%d.]+) mm") / 1000, mug.pose.position.z - start.z, 1e-4)
   t.equal(#session.history.done, 2)
   view:close()
 end)
@@ -94,6 +96,7 @@ test("a ring turns about its axis through the center of mass", function(t)
     local turn = mug.pose * before:inverse()
     t.ok(turn:angle() > 0.3, turn:angle())
     t.close((turn:rotate(ring.axis) - ring.axis):norm(), 0, 1e-9)
+    t.close(math.abs(tonumber(view.status:match "([+-][%d.]+)°")), clench.deg(turn:angle()), 0.06)
     t.close((mug.pose * mug.com - center):norm(), 0, 1e-9)
     session:undo()
   end

@@ -119,6 +119,70 @@ TEST_CASE("a text that is not JSON is rejected with line and column") {
   CHECK(lua.text("clench.json.decode '1e-999'") == "0.0");
 }
 
+TEST_CASE("the parts of a split text are decoded to the parts of the whole") {
+  Script lua;
+  CHECK(lua.run(R"==(
+    local json = clench.json
+    local whole = {"a,]}\"", {1, {2, "["}, {}}, {["x:\"]"] = {{}, "}"}, y = "\\"}, true, json.null, -1.5e-7, "é\n"}
+    local function same(a, b) return json.encode(a) == json.encode(b) end
+    for _, indent in ipairs{0, 1, 3} do
+      local items = json.split(" " .. json.encode(whole, {indent = indent}) .. "\n")
+      if #items ~= #whole then return #items end
+      for i, item in ipairs(items) do
+        if item:find "^%s" or item:find "%s$" or not same(json.decode(item), whole[i]) then return i, item end
+      end
+      local named = {}
+      for i, item in ipairs(whole) do named["n\"" .. i] = item end
+      local fields, count = json.split(json.encode(named, {indent = indent})), 0
+      for name, field in pairs(fields) do
+        count = count + 1
+        if not same(json.decode(field), named[name]) then return name, field end
+      end
+      if count ~= #whole then return count end
+    end
+    return #json.split "[ ]", next(json.split "{ }"), json.split '{"id":null}'.id, json.split '{"a":1,"a":2}'.a)==") ==
+        "0, nil, null, 2");
+}
+
+TEST_CASE("a text that cannot be split is rejected with line and column") {
+  Script lua;
+  const auto refused = [&](const std::string& text) {
+    return lua.text("clench.json.split [==[" + text + "]==]");
+  };
+  const std::string at = "test:1: clench.json.split: line 1, column ";
+  CHECK(refused("") == at + "1: expected '[' or '{', got the end of the text");
+  CHECK(refused("5") == at + "1: expected '[' or '{', got '5'");
+  CHECK(refused("[1, 2") == at + "6: expected ',' or ']', got the end of the text");
+  CHECK(refused("[1,]") == at + "4: expected a value, got ']'");
+  CHECK(refused("[1}") == at + "3: expected ',' or ']', got '}'");
+  CHECK(refused("{\"a\" 1}") == at + "6: expected ':', got '1'");
+  CHECK(refused("{a: 1}") == at + "2: expected a name in double quotes, got 'a'");
+  CHECK(refused("[[]] x") == at + "6: expected the end, got 'x'");
+  CHECK(refused("[\"a\\") == at + "2: a string that never ends");
+  CHECK(lua.run(R"(
+    local text = clench.json.encode{1, {2.5, "x\n😀"}, {a = {b = {}}}}
+    for cut = 0, #text - 1 do
+      if pcall(clench.json.split, text:sub(1, cut)) then return cut end
+    end)") == "");
+}
+
+TEST_CASE("a text with more values than permitted is refused, as an error of its own kind") {
+  Script lua;
+  const auto limited = [&](const std::string& call) {
+    return lua.run("local ok, problem = pcall(clench.json." + call +
+                   ") return ok or problem.kind, ok and clench.json.encode(problem) or "
+                   "tostring(problem)");
+  };
+  CHECK(limited("decode, '[1,{\"a\":null}]', {max_values = 4}") == "true, [1,{}]");
+  CHECK(limited("decode, '[1,{\"a\":null}]', {max_values = 3}").find("limit, ") == 0);
+  CHECK(limited("decode, '[1,{\"a\":null}]', {max_values = 3}")
+            .find("clench.json.decode: expected at most 3 values") != std::string::npos);
+  CHECK(limited("split, '[1,[2,3,4]]', {max_values = 2}") == "true, [\"1\",\"[2,3,4]\"]");
+  CHECK(limited("split, '[1,2,3]', {max_values = 2}")
+            .find("clench.json.split: expected at most 2 values") != std::string::npos);
+  CHECK(limited("decode, '[1', {max_values = 9}").find("input, ") == 0);
+}
+
 TEST_CASE("a text truncated anywhere is rejected or read, and never crashes") {
   Script lua;
   CHECK(lua.run(R"(

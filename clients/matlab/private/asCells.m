@@ -1,5 +1,5 @@
 function cells = asCells(items, values, name)
-% One row of numbers per item.
+% A cell with a vector per item.
   if ~iscell(values), values = {values}; end
   if ischar(items) || numel(values) ~= numel(items)
     error('clench:InvalidParams', '%s: expected a vector per robot, by index', name);

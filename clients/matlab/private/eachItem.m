@@ -1,5 +1,5 @@
 function varargout = eachItem(items, read)
-% The reply to a list: read() returns what belongs to one item. Of one index the values themselves, otherwise cells.
+% The reply to a list of items, each read by read(). For one index: the values themselves; otherwise cells.
   if ischar(items), count = lineNumbers(); else, count = numel(items); end
   outputs = max(1, nargout);
   results = cell(count, outputs);

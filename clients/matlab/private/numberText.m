@@ -1,4 +1,4 @@
 function text = numberText(values)
-% Numbers, separated by blanks, exactly.
+% Numbers separated by blanks, with all digits.
   text = strtrim(sprintf('%.17g ', values));
 end

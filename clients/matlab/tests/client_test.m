@@ -197,9 +197,14 @@ end
 function wrappersRefuse()
   fails(@() getDOFVals(7), 'clench:Failed', 'Cannot find robot 6');
   fails(@() moveDOFs(1, [1 2], [1 1]), 'clench:Failed', 'robot has 4 DOF');
+  same(getRobotName(1), 'barrett', 'the connection continues');
+  fails(@() setDOFVals(1, [1 2], [1 1]), 'clench:Failed', 'robot has 4 DOF');
+  same(getRobotName(1), 'barrett', 'replies to the lines of a rejected command are dropped');
+  graspitServer('send', 'moveToContacts 5');
+  fails(@() getRobotName(1), 'clench:Failed', 'one word too many: 5');
   fails(@() moveDynamicBodies(-1), 'clench:Failed', 'expected a time > 0');
   fails(@() getBodyName(0), 'clench:InvalidParams', 'expected indices from 1');
   fails(@() getBodyName('all'), 'clench:InvalidParams');
   fails(@() setDOFForces([1 2], [0 0 0 0]), 'clench:InvalidParams', 'a vector per robot');
-  same(getRobotName(1), 'barrett', 'the connection goes on');
+  same(getRobotName(1), 'barrett', 'the connection continues');
 end

@@ -78,36 +78,37 @@ void check_unmoved(const World& world, const Grasp& grasp) {
                   : "hand and object have moved apart");
 }
 
-Grasp find_grasp(const World& world, Id<Robot> hand, Id<Body> object, const GraspOptions& options) {
+// raises an error about a grasp that cannot be measured
+template <class... Args>
+[[noreturn]] static void refuse(const World& world, Id<Robot> hand, Id<Body> object,
+                                fmt::format_string<Args...> format, Args&&... args) {
+  fail("grasp of {} by {}: {}", world.body(object).name, world.robot(hand).name,
+       fmt::format(format, std::forward<Args>(args)...));
+}
+
+static void check_options(const World& world, Id<Robot> hand, Id<Body> object,
+                          const GraspOptions& options) {
   const Body& held = world.body(object);
-  const std::string& hand_name = world.robot(hand).name;
-  const auto refuse = [&](const std::string& why) {
-    fail("grasp of {} by {}: {}", held.name, hand_name, why);
-  };
   if (held.robot)
-    refuse(fmt::format("{} is a part of {}", held.name, world.robot(held.robot).name));
+    refuse(world, hand, object, "{} is a part of {}", held.name, world.robot(held.robot).name);
   if ((options.edges < 3 || options.edges > max_edges) && options.edges != round_edges)
-    refuse(fmt::format("edges must be 3 to {}, got {}", max_edges, options.edges));
+    refuse(world, hand, object, "edges must be 3 to {}, got {}", max_edges, options.edges);
   if (options.rho && !(std::isfinite(*options.rho) && *options.rho > 0))
-    refuse(fmt::format("rho must be > 0 [m], got {}", *options.rho));
+    refuse(world, hand, object, "rho must be > 0 [m], got {}", *options.rho);
   // with many contacts some may carry nothing
   const auto& forces = options.normal_force.values;
   for (const double force : forces)
     if (!(std::isfinite(force) && (force > 0 || (force == 0 && forces.size() > 1))))
-      refuse(fmt::format("the normal force must be > 0 [N], got {}", force));
+      refuse(world, hand, object, "the normal force must be > 0 [N], got {}", force);
+}
 
-  Grasp grasp;
-  grasp.hand = hand;
-  grasp.object = object;
-  grasp.hand_name = hand_name;
-  grasp.object_name = held.name;
-  grasp.hand_file = world.robot(hand).source;
-  grasp.object_file = held.source;
-  grasp.X_OH = hand_in_object(world, hand, object);
-  const auto dofs = world.dofs(hand), joints = world.joints(hand);
+// pose, DOFs and joints of the hand, with their names and units
+static void add_posture(const World& world, Grasp& grasp) {
+  const Robot& robot = world.robot(grasp.hand);
+  grasp.X_OH = hand_in_object(world, grasp.hand, grasp.object);
+  const auto dofs = world.dofs(grasp.hand), joints = world.joints(grasp.hand);
   grasp.dofs.assign(dofs.begin(), dofs.end());
   grasp.joints.assign(joints.begin(), joints.end());
-  const Robot& robot = world.robot(hand);
   for (int d = 0; d < static_cast<int>(robot.dofs.size()); ++d) {
     grasp.dof_names.push_back(dof_name(robot, d));
     grasp.dof_units.push_back(dof_slides(robot, d) ? "m" : "rad");
@@ -119,6 +120,32 @@ Grasp find_grasp(const World& world, Id<Robot> hand, Id<Body> object, const Gras
   }
   for (size_t j = 0; j < grasp.joint_offsets.size(); ++j)
     grasp.joint_offsets[j] = robot.joints[j].offset;
+}
+
+static void add_contacts(const World& world, Grasp& grasp) {
+  const auto parts = world.bodies_of(grasp.hand);
+  grasp.contacts = contacts(world, parts, std::span(&grasp.object, 1));
+  const Pose X_OW = world.pose(grasp.object).inverse();
+  for (const Contact& contact : grasp.contacts) {
+    grasp.links.push_back(world.body(contact.other).name);
+    grasp.points.push_back({.p_O = X_OW * contact.p_W,
+                            .n_O = (X_OW.rotation * contact.n_W).normalized(),
+                            .mu = contact.friction.statics});
+  }
+}
+
+Grasp find_grasp(const World& world, Id<Robot> hand, Id<Body> object, const GraspOptions& options) {
+  check_options(world, hand, object, options);
+  const Body& held = world.body(object);
+  const Robot& robot = world.robot(hand);
+  Grasp grasp;
+  grasp.hand = hand;
+  grasp.object = object;
+  grasp.hand_name = robot.name;
+  grasp.object_name = held.name;
+  grasp.hand_file = robot.source;
+  grasp.object_file = held.source;
+  add_posture(world, grasp);
   grasp.com = held.com;
   grasp.options = options;
   // a body without extent has no contacts either: any length is valid
@@ -127,19 +154,11 @@ Grasp find_grasp(const World& world, Id<Robot> hand, Id<Body> object, const Gras
   grasp.largest_radius = radius > 0 ? radius : 1;
   grasp.gyration_radius = gyration > 0 ? gyration : 1;
   grasp.rho = options.rho.value_or(grasp.length(options.length));
-
-  const auto parts = world.bodies_of(hand);
-  grasp.contacts = contacts(world, parts, std::span(&object, 1));
-  const Pose X_OW = world.pose(object).inverse();
-  for (const Contact& contact : grasp.contacts) {
-    grasp.links.push_back(world.body(contact.other).name);
-    grasp.points.push_back({.p_O = X_OW * contact.p_W,
-                            .n_O = (X_OW.rotation * contact.n_W).normalized(),
-                            .mu = contact.friction.statics});
-  }
+  add_contacts(world, grasp);
+  const auto& forces = options.normal_force.values;
   if (forces.empty() || !options.normal_force.fits(grasp.contacts.size()))
-    refuse(fmt::format("normal_force: expected one number or {}, one per contact, got {}",
-                       grasp.contacts.size(), forces.size()));
+    refuse(world, hand, object, "normal_force: expected one number or {}, one per contact, got {}",
+           grasp.contacts.size(), forces.size());
   if (options.soft) add_torsion(grasp, options);
   return grasp;
 }

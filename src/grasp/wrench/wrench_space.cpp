@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "clench/base/error.h"
-#include "clench/base/watched.h"
-#include "clench/contact/friction_edges.h"
 #include "clench/grasp/wrench/expanding_polytope.h"
 #include "clench/grasp/wrench/nearest_point.h"
 #include "clench/grasp/wrench/sum_volume.h"
@@ -99,40 +97,7 @@ bool surely_full_rank(Eigen::MatrixXd m) {
   return true;
 }
 
-// Points of the unit sphere in two or three dimensions, and the radius of the ball within their
-// hull.
-struct SpherePoints {
-  Eigen::MatrixXd points;
-  double within;
-};
-
-SpherePoints sphere_points(Eigen::Index dimension, int edges) {
-  // the circle, or half as many on the equator and rings beside it
-  const FrictionEdges on =
-      dimension == 2 ? friction_edges(0, edges) : friction_edges(1, std::max(3, edges / 2), 1);
-  SpherePoints out{Eigen::MatrixXd(dimension, on.cols()), 0};
-  out.points.topRows(2) = on.topRows(2);
-  if (dimension == 3) out.points.row(2) = on.row(5);
-  const ContactPart part{.points = out.points.data(), .count = static_cast<int>(on.cols())};
-  const WrenchSupport reach(static_cast<int>(dimension), WrenchNorm::l1, std::span(&part, 1));
-  out.within = largest_ball(reach).lower;
-  return out;
-}
-
-// a pyramid inscribed in a round cone, or circumscribed about it
-Wrenches pyramid_of(const RoundCone& cone, int edges, bool around) {
-  if (cone.spread.cols() == 0) return cone.axis;
-  const SpherePoints sphere = sphere_points(cone.spread.cols(), edges);
-  return (cone.spread * (around ? sphere.points / sphere.within : sphere.points)).colwise() +
-         cone.axis;
-}
-
 }  // namespace
-
-UnitWrenches unit_wrenches(const PointContact& contact, const ConeOptions& options) {
-  if (options.edges != round_edges) return {cone_wrenches(contact, options), {}};
-  return {Wrenches(6, 0), round_cone(contact, options)};
-}
 
 WrenchSpace::WrenchSpace(std::vector<UnitWrenches> contacts, WrenchSpaceOptions options)
     : contacts_(std::move(contacts)), options_(std::move(options)) {
@@ -162,104 +127,24 @@ Vector6d WrenchSpace::in_all_coordinates(const Eigen::VectorXd& x) const {
 
 const WrenchSpace::Prepared& WrenchSpace::prepared() const {
   if (prepared_) return *prepared_;
-  double largest = 0, square = 0;
-  for (const UnitWrenches& contact : contacts_)
-    for (const int row : options_.coordinates) {
-      if (contact.edges.cols() > 0)
-        largest = std::max(largest, contact.edges.row(row).cwiseAbs().maxCoeff());
-      if (contact.round) {
-        largest = std::max(largest, std::abs(contact.round->axis[row]));
-        if (contact.round->spread.cols() > 0)
-          largest = std::max(largest, contact.round->spread.row(row).cwiseAbs().maxCoeff());
-      }
-    }
-  // scaling by a power of two is exact
-  int exponent = largest > 0 ? std::ilogb(largest) + 1 : 0;
-  for (const UnitWrenches& contact : contacts_) {
-    check_stop();
-    const auto add = [&](const auto& column) {
-      double sum = 0;
-      for (const int row : options_.coordinates) {
-        const double x = std::ldexp(column[row], -exponent);
-        sum += x * x;
-      }
-      square = std::max(square, sum);
-    };
-    for (const auto& column : contact.edges.colwise()) add(column);
-    if (contact.round) {
-      add(contact.round->axis);
-      for (const auto& column : contact.round->spread.colwise()) add(column);
-    }
-  }
-  double zero = on_boundary * std::sqrt(square);
+  int exponent = wrenches().exponent();
+  double zero = on_boundary * wrenches().max_norm(exponent);
   // sums of many contacts have size one, too
   if (options_.norm == WrenchNorm::linf && contacts_.size() > 1) {
     const int more = std::ilogb(static_cast<double>(contacts_.size()));
     exponent += more;
     zero = std::ldexp(zero, -more);
   }
-  prepared_.emplace(Prepared{exponent, zero, reach_in(options_.norm, exponent)});
+  prepared_.emplace(Prepared{exponent, zero, wrenches().support(options_.norm, exponent)});
   return *prepared_;
 }
 
-WrenchSupport WrenchSpace::reach_in(WrenchNorm norm, int exponent) const {
-  const int d = dimension();
-  size_t count = 0;
-  for (const UnitWrenches& contact : contacts_)
-    count += static_cast<size_t>(contact.round ? 1 + contact.round->spread.cols()
-                                               : contact.edges.cols());
-  std::vector<double> numbers;
-  numbers.reserve(count * d);  // parts point into it
-  std::vector<ContactPart> parts;
-  // ldexp is slow, and a product with a power of two is the same unless it leaves the doubles
-  const bool common = std::abs(exponent) < 500;
-  const double scale = common ? std::ldexp(1.0, -exponent) : 0;
-  const auto add = [&](const auto& column) {
-    for (const int row : options_.coordinates)
-      numbers.push_back(common ? column[row] * scale : std::ldexp(column[row], -exponent));
-  };
-  for (const UnitWrenches& contact : contacts_) {
-    check_stop();
-    ContactPart part;
-    const double* start = numbers.data() + numbers.size();
-    if (contact.round) {
-      add(contact.round->axis);
-      for (const auto& column : contact.round->spread.colwise()) add(column);
-      part.axis = start;
-      part.spread = start + d;
-      part.width = static_cast<int>(contact.round->spread.cols());
-    } else {
-      for (const auto& column : contact.edges.colwise()) add(column);
-      part.points = start;
-      part.count = static_cast<int>(contact.edges.cols());
-    }
-    parts.push_back(part);
-  }
-  return WrenchSupport(d, norm, parts);
+WrenchSupport WrenchSpace::support_in_l1() const {
+  return wrenches().support(WrenchNorm::l1, prepared().exponent);
 }
 
-// columns with the same span as all wrenches, scaled
-Eigen::MatrixXd WrenchSpace::spanning() const {
-  Eigen::Index count = 0, column = 0;
-  for (const UnitWrenches& contact : contacts_)
-    count += contact.round ? 1 + contact.round->spread.cols() : contact.edges.cols();
-  Eigen::MatrixXd all(dimension(), count);
-  const int exponent = prepared().exponent;
-  const auto add = [&](const auto& wrench) {
-    for (int i = 0; i < dimension(); ++i)
-      all(i, column) = std::ldexp(wrench[options_.coordinates[i]], -exponent);
-    ++column;
-  };
-  for (const UnitWrenches& contact : contacts_) {
-    check_stop();
-    for (const auto& wrench : contact.edges.colwise()) add(wrench);
-    if (contact.round) {
-      add(contact.round->axis);
-      for (const auto& wrench : contact.round->spread.colwise()) add(wrench);
-    }
-  }
-  return all;
-}
+// vectors with the same span as all wrenches, scaled
+Eigen::MatrixXd WrenchSpace::spanning() const { return wrenches().columns(prepared().exponent); }
 
 int WrenchSpace::rank() const {
   if (rank_) return *rank_;
@@ -323,17 +208,15 @@ bool WrenchSpace::is_force_closure(const Progress& progress) const {
   for (const UnitWrenches& contact : contacts_) wrenches += contact.edges.cols();
   const double tolerance = wrenches > many_wrenches ? flat_tolerance : 0.5;
   Bracket b = bracket_ && l1 ? *bracket_
-                             : bracket_of(l1 ? prepared().reach
-                                             : reach_in(WrenchNorm::l1, prepared().exponent),
-                                          tolerance, inside, progress);
+                             : bracket_of(l1 ? prepared().reach : support_in_l1(), tolerance,
+                                          inside, progress);
   progress.check();
   if (b.outside) {
     if (l1) bracket_ = b, bracket_->tolerance = 0;
     return closure_.emplace(false);
   }
   if (b.lower < inside)
-    b = l1 ? final_bracket(progress)
-           : bracket_of(reach_in(WrenchNorm::l1, prepared().exponent), flat_tolerance, 0, progress);
+    b = l1 ? final_bracket(progress) : bracket_of(support_in_l1(), flat_tolerance, 0, progress);
   progress.check();
   if (b.outside || b.upper <= prepared().zero) return closure_.emplace(false);
   return closure_.emplace(b.lower > surely_spanned || rank() == dimension());
@@ -388,7 +271,7 @@ Weakest WrenchSpace::unresisted(const Progress& progress) const {
     return out;
   }
   const int exponent = prepared().exponent;
-  const WrenchSupport l1 = reach_in(WrenchNorm::l1, exponent);
+  const WrenchSupport l1 = support_in_l1();
   const NearestPoint nearest = nearest_point(l1, Eigen::VectorXd::Zero(dimension()));
   Eigen::VectorXd direction, far(dimension());
   if (nearest.distance > 10 * prepared().zero)

@@ -5,22 +5,12 @@
 #include <vector>
 
 #include "clench/base/progress.h"
-#include "clench/contact/cone.h"
 #include "clench/geometry/mesh/hull.h"
+#include "clench/grasp/wrench/unit_wrenches.h"
 #include "clench/grasp/wrench/wrench_support.h"
 #include "clench/math/pose.h"
 
 namespace clench {
-
-/// Wrenches of a contact with unit normal force: the edges of a pyramid or any other wrenches, one
-/// per column, or a round cone.
-struct UnitWrenches {
-  Wrenches edges;
-  std::optional<RoundCone> round;  ///< instead of edges
-};
-
-/// options.edges may be round_edges.   throws  Error as cone_wrenches
-UnitWrenches unit_wrenches(const PointContact& contact, const ConeOptions& options = {});
 
 struct WrenchSpaceOptions {
   WrenchNorm norm = WrenchNorm::l1;
@@ -128,7 +118,8 @@ class WrenchSpace {
     bool outside;
   };
   const Prepared& prepared() const;
-  WrenchSupport reach_in(WrenchNorm norm, int exponent) const;
+  ContactWrenches wrenches() const { return {contacts_, options_.coordinates}; }
+  WrenchSupport support_in_l1() const;  // scaled
   Bracket bracket_of(const WrenchSupport& reach, double tolerance, double at_least,
                      const Progress& progress) const;
   const Bracket& final_bracket(const Progress& progress) const;

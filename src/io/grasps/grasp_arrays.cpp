@@ -85,88 +85,140 @@ static Pose pose_in_rows(const NpyArray& poses, size_t i, const std::string& fil
   return {*q, {x[0], x[1], x[2]}};
 }
 
-void read_grasp_arrays(const std::string& file, std::string_view bytes, const GraspSink& sink,
-                       const ReadOptions& options) {
-  const auto arrays = read_npz(file, bytes);
-  const auto find = [&](const std::string& name) {
-    const auto found = arrays.find(name);
-    return found == arrays.end() ? nullptr : &found->second;
-  };
-  const NpyArray* poses = find("poses");
-  if (!poses) fail("{}: expected an array 'poses', got none", file);
-  const auto& shape = poses->shape;
-  const bool matrices = shape.size() == 3 && shape[1] == 4 && shape[2] == 4;
-  if (poses->is_text || !(matrices || (shape.size() == 2 && shape[1] == 7)))
-    fail("{}: poses: expected n x 7 or n x 4 x 4 numbers, got {}", file, shape_text(*poses));
-  const size_t n = shape[0];
-  const auto of_grasps = [&](const char* name, bool text) {
-    const NpyArray* a = find(name);
-    if (a && (a->is_text != text || a->shape != std::vector<size_t>{n}))
-      fail("{}: {}: expected {} {}, got {}", file, name, n, text ? "texts" : "numbers",
-           shape_text(*a));
-    return a;
-  };
-  const NpyArray* dofs = find("dofs");
-  if (dofs && (dofs->is_text || dofs->shape.size() != 2 || dofs->shape[0] != n))
-    fail("{}: dofs: expected {} x d numbers, got {}", file, n, shape_text(*dofs));
-  const size_t d = dofs ? dofs->shape[1] : 0;
-  const auto labels = [&](const char* name) {
-    const NpyArray* a = dofs ? find(name) : nullptr;
-    if (a && (!a->is_text || a->shape != std::vector<size_t>{d}))
-      fail("{}: {}: expected {} texts, got {}", file, name, d, shape_text(*a));
-    return a ? a->texts : std::vector<std::string>();
-  };
-  const auto names = labels("dof_names"), units = labels("dof_units");
-  check_dof_names(file + ": dof_names", names);
-  check_dof_units(file + ": dof_units", units);
-  const NpyArray *epsilon = of_grasps("epsilon", false), *energy = of_grasps("energy", false),
-                 *seed = of_grasps("seed", false), *free = of_grasps("collision_free", false),
-                 *hands = of_grasps("hands", true), *objects = of_grasps("objects", true),
-                 *planners = of_grasps("planners", true);
-  const ArrayParts parts(file, arrays, n, d);
-  // compressed files, and files of smaller numbers, are budgeted by their size as float64, up to
-  // four times the file: their grasps take as much memory
-  size_t numbers = 0;
-  for (const NpyArray* a : {poses, dofs}) numbers += a ? a->numbers.size() : 0;
-  const size_t size = std::clamp(8 * numbers, bytes.size(), 4 * bytes.size());
-  GraspCollector list(file, size, sink);
-  list.expect(n);
-  for (size_t i = 0; i < n; ++i) {
-    options.progress.check();
-    GraspSpec g;
-    g.X_OH = matrices ? pose_in_matrices(*poses, i, file) : pose_in_rows(*poses, i, file);
-    if (dofs) {
-      g.dofs.assign(dofs->numbers.begin() + std::ptrdiff_t(i * d),
-                    dofs->numbers.begin() + std::ptrdiff_t((i + 1) * d));
-      for (const double x : g.dofs)
-        if (!std::isfinite(x)) fail("{}: dofs[{}]: expected finite numbers, got {}", file, i, x);
-      g.dof_names = names;
-      g.dof_units = units;
-    }
-    const auto number = [&](const NpyArray* a, auto set) {
-      if (a && std::isfinite(a->numbers[i])) set(a->numbers[i]);
-    };
-    number(epsilon, [&](double x) { g.measures["epsilon"] = x; });
-    number(energy, [&](double x) { g.info["energy"] = x; });
-    number(seed, [&](double x) { g.info["seed"] = x; });
-    number(free, [&](double x) { g.collision_free = x != 0; });
-    if (hands) g.hand_name = hands->texts[i];
-    if (objects) g.object_name = objects->texts[i];
-    if (planners && !planners->texts[i].empty()) g.labels["planner"] = planners->texts[i];
-    parts.read(i, g);
-    list.add(std::move(g));
+namespace {
+
+/// The arrays of a list that are not in ArrayParts, by the number of a grasp.
+class GraspArrays {
+ public:
+  GraspArrays(const std::string& file, const std::map<std::string, NpyArray>& arrays)
+      : file_(file), arrays_(arrays) {
+    read_shapes();
+    names_ = labels("dof_names");
+    units_ = labels("dof_units");
+    check_dof_names(file + ": dof_names", names_);
+    check_dof_units(file + ": dof_units", units_);
+    epsilon_ = of_grasps("epsilon", false);
+    energy_ = of_grasps("energy", false);
+    seed_ = of_grasps("seed", false);
+    free_ = of_grasps("collision_free", false);
+    hands_ = of_grasps("hands", true);
+    objects_ = of_grasps("objects", true);
+    planners_ = of_grasps("planners", true);
   }
-  static const std::vector<std::string> known = {
-      "poses", "dofs",           "dof_names", "dof_units", "epsilon", "energy",
-      "seed",  "collision_free", "hands",     "objects",   "planners"};
+
+  static bool knows(const std::string& name) {
+    static const std::vector<std::string> known = {
+        "poses", "dofs",           "dof_names", "dof_units", "epsilon", "energy",
+        "seed",  "collision_free", "hands",     "objects",   "planners"};
+    return std::ranges::find(known, name) != known.end();
+  }
+  size_t count() const { return count_; }
+  size_t dofs() const { return dof_count_; }
+  /// Number of poses' and DOFs' numbers.
+  size_t numbers() const { return poses_->numbers.size() + (dofs_ ? dofs_->numbers.size() : 0); }
+  GraspSpec read(size_t i) const;
+
+ private:
+  const NpyArray* find(const std::string& name) const {
+    const auto found = arrays_.find(name);
+    return found == arrays_.end() ? nullptr : &found->second;
+  }
+  void read_shapes();
+  const NpyArray* of_grasps(const char* name, bool text) const;
+  std::vector<std::string> labels(const char* name) const;
+
+  const std::string& file_;
+  const std::map<std::string, NpyArray>& arrays_;
+  const NpyArray *poses_ = nullptr, *dofs_ = nullptr;
+  bool matrices_ = false;
+  size_t count_ = 0, dof_count_ = 0;
+  std::vector<std::string> names_, units_;
+  const NpyArray *epsilon_, *energy_, *seed_, *free_, *hands_, *objects_, *planners_;
+};
+
+void GraspArrays::read_shapes() {
+  poses_ = find("poses");
+  if (!poses_) fail("{}: expected an array 'poses', got none", file_);
+  const auto& shape = poses_->shape;
+  matrices_ = shape.size() == 3 && shape[1] == 4 && shape[2] == 4;
+  if (poses_->is_text || !(matrices_ || (shape.size() == 2 && shape[1] == 7)))
+    fail("{}: poses: expected n x 7 or n x 4 x 4 numbers, got {}", file_, shape_text(*poses_));
+  count_ = shape[0];
+  dofs_ = find("dofs");
+  if (dofs_ && (dofs_->is_text || dofs_->shape.size() != 2 || dofs_->shape[0] != count_))
+    fail("{}: dofs: expected {} x d numbers, got {}", file_, count_, shape_text(*dofs_));
+  dof_count_ = dofs_ ? dofs_->shape[1] : 0;
+}
+
+const NpyArray* GraspArrays::of_grasps(const char* name, bool text) const {
+  const NpyArray* a = find(name);
+  if (a && (a->is_text != text || a->shape != std::vector<size_t>{count_}))
+    fail("{}: {}: expected {} {}, got {}", file_, name, count_, text ? "texts" : "numbers",
+         shape_text(*a));
+  return a;
+}
+
+std::vector<std::string> GraspArrays::labels(const char* name) const {
+  const NpyArray* a = dofs_ ? find(name) : nullptr;
+  if (a && (!a->is_text || a->shape != std::vector<size_t>{dof_count_}))
+    fail("{}: {}: expected {} texts, got {}", file_, name, dof_count_, shape_text(*a));
+  return a ? a->texts : std::vector<std::string>();
+}
+
+GraspSpec GraspArrays::read(size_t i) const {
+  GraspSpec g;
+  g.X_OH = matrices_ ? pose_in_matrices(*poses_, i, file_) : pose_in_rows(*poses_, i, file_);
+  if (dofs_) {
+    g.dofs.assign(dofs_->numbers.begin() + std::ptrdiff_t(i * dof_count_),
+                  dofs_->numbers.begin() + std::ptrdiff_t((i + 1) * dof_count_));
+    for (const double x : g.dofs)
+      if (!std::isfinite(x)) fail("{}: dofs[{}]: expected finite numbers, got {}", file_, i, x);
+    g.dof_names = names_;
+    g.dof_units = units_;
+  }
+  const auto number = [&](const NpyArray* a, auto set) {
+    if (a && std::isfinite(a->numbers[i])) set(a->numbers[i]);
+  };
+  number(epsilon_, [&](double x) { g.measures["epsilon"] = x; });
+  number(energy_, [&](double x) { g.info["energy"] = x; });
+  number(seed_, [&](double x) { g.info["seed"] = x; });
+  number(free_, [&](double x) { g.collision_free = x != 0; });
+  if (hands_) g.hand_name = hands_->texts[i];
+  if (objects_) g.object_name = objects_->texts[i];
+  if (planners_ && !planners_->texts[i].empty()) g.labels["planner"] = planners_->texts[i];
+  return g;
+}
+
+void warn_of_unused(const std::string& file, const std::map<std::string, NpyArray>& arrays,
+                    const ReadOptions& options) {
   std::vector<std::string> unused;
   for (const auto& [name, array] : arrays)
-    if (std::ranges::find(known, name) == known.end() && !ArrayParts::knows(name))
-      unused.push_back(in_quotes(name));
+    if (!GraspArrays::knows(name) && !ArrayParts::knows(name)) unused.push_back(in_quotes(name));
   if (!unused.empty())
     options.diagnostics.warn(Place(file), "the array{} {} {} not used",
                              unused.size() > 1 ? "s" : "", name_list(unused),
                              unused.size() > 1 ? "are" : "is");
+}
+
+}  // namespace
+
+void read_grasp_arrays(const std::string& file, std::string_view bytes, const GraspSink& sink,
+                       const ReadOptions& options) {
+  const auto arrays = read_npz(file, bytes);
+  const GraspArrays given(file, arrays);
+  const ArrayParts parts(file, arrays, given.count(), given.dofs());
+  // compressed files, and files of smaller numbers, are budgeted by their size as float64, up to
+  // four times the file: their grasps take as much memory
+  const size_t size = std::clamp(8 * given.numbers(), bytes.size(), 4 * bytes.size());
+  GraspCollector list(file, size, sink);
+  list.expect(given.count());
+  for (size_t i = 0; i < given.count(); ++i) {
+    options.progress.check();
+    GraspSpec g = given.read(i);
+    parts.read(i, g);
+    list.add(std::move(g));
+  }
+  warn_of_unused(file, arrays, options);
 }
 
 }  // namespace clench

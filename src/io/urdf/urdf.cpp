@@ -6,11 +6,10 @@
 #include <set>
 
 #include "clench/base/suggest.h"
-#include "clench/io/tree/tree_links.h"
 #include "clench/io/tree/tree_robot.h"
 #include "clench/io/tree/tree_xml.h"
 #include "clench/io/urdf/urdf_clench.h"
-#include "clench/io/urdf/urdf_files.h"
+#include "clench/io/urdf/urdf_links.h"
 
 namespace clench {
 
@@ -32,26 +31,19 @@ class UrdfReader {
         file_(path.filename().string()),
         cache_(cache),
         xml_(path),
-        geometry_(cache.options()),
-        repairs_(cache.diagnostics()) {}
+        repairs_(cache.diagnostics()),
+        link_reader_(path, cache, unused_, repairs_) {}
   RobotSpec read();
 
  private:
-  void warn_of_undrawn() const;
   void refuse_xacro(const XmlElement& element) const;
-  void read_materials();
-  void read_link(const XmlElement& element);
-  void read_inertial(const XmlElement& element, BodySpec& body, LinkPieces& pieces);
-  std::optional<GeometryPiece> read_piece(const XmlElement& element, const std::string& link,
-                                          bool visual);
-  std::optional<GeometryPiece> read_geometry_of(const XmlElement& shape, bool visual);
-  std::optional<PieceColor> read_color(const XmlElement& material);
-  Pose read_origin(const XmlElement& element);
   void read_joint_names(const XmlElement& element);
   int link_of(const XmlElement& joint, const char* end) const;
   void find_still_joints();
   Pose read_joint_origin(const FileJoint& from);
+  int find_root() const;
   void order_links();
+  void read_joints();
   TreeJoint read_joint(const FileJoint& from);
   void read_axis(const FileJoint& from, TreeJoint& joint);
   void read_limits(const FileJoint& from, TreeJoint& joint);
@@ -61,22 +53,15 @@ class UrdfReader {
   const std::string file_;
   FileCache& cache_;
   XmlFile xml_;
-  TreeGeometry geometry_;
   Repairs repairs_;
   UnusedXml unused_;
-  InertialFaults inertial_faults_;
-  std::map<std::string, PieceColor> materials_;
-  std::vector<TreeLink> links_;  // in the file's order
-  std::vector<LinkPieces> pieces_;
-  std::map<std::string, int> link_numbers_;
+  UrdfLinkReader link_reader_;
+  UrdfLinks given_;  // in the file's order
   std::vector<FileJoint> joints_;
   std::set<std::string> names_;          // of joints
   std::map<std::string, double> still_;  // positions of joints that never move [rad or m]
-  size_t piece_count_ = 0;
   TreeModel tree_;
   std::map<std::string, int> joint_numbers_;  // in the tree
-  int undrawn_ = 0;                           // visual meshes that are missing
-  Diagnostic first_undrawn_;
 };
 
 void UrdfReader::refuse_xacro(const XmlElement& element) const {
@@ -91,174 +76,15 @@ void UrdfReader::refuse_xacro(const XmlElement& element) const {
   for (const auto& child : element.children()) refuse_xacro(child);
 }
 
-Pose UrdfReader::read_origin(const XmlElement& element) {
-  const XmlElement origin = element.child("origin");
-  if (!origin) return {};
-  unused_.attributes(origin, {"xyz", "rpy"});
-  const XmlValues values(origin);
-  const Eigen::Vector3d rpy = values.vec3("rpy", {0, 0, 0});
-  // about the fixed axes x, then y, then z
-  const Pose turn = Pose::turn(rpy.z(), Eigen::Vector3d::UnitZ()) *
-                    Pose::turn(rpy.y(), Eigen::Vector3d::UnitY()) *
-                    Pose::turn(rpy.x(), Eigen::Vector3d::UnitX());
-  return Pose::translation(values.vec3("xyz", {0, 0, 0})) * turn;
-}
-
-// --- links ---
-
-std::optional<PieceColor> UrdfReader::read_color(const XmlElement& material) {
-  unused_.attributes(material, {"name"});
-  for (const auto& child : material.children())
-    if (child.name() != "color") unused_.element(child);
-  const XmlElement color = material.child("color");
-  if (!color) {
-    const auto found = materials_.find(material.attribute("name").value_or(""));
-    if (found == materials_.end()) return {};
-    return found->second;
-  }
-  const auto rgba = XmlValues(color).color("rgba", 3, repairs_);
-  PieceColor out{Eigen::Vector3d(rgba[0], rgba[1], rgba[2]).cast<float>(), 0};
-  if (rgba.size() == 4) out.transparency = static_cast<float>(1 - rgba[3]);
-  return out;
-}
-
-void UrdfReader::read_materials() {
-  for (const auto& material : xml_.root().children("material"))
-    if (const auto color = read_color(material))
-      materials_[material.attribute("name").value_or("")] = *color;
-}
-
-void UrdfReader::read_inertial(const XmlElement& element, BodySpec& body, LinkPieces& pieces) {
-  // a robot with an invalid inertia can still be used for grasps
-  try {
-    const XmlElement mass = element.expected("mass"), inertia = element.child("inertia");
-    Eigen::Matrix3d I = Eigen::Matrix3d::Zero();
-    if (inertia) {
-      const XmlValues v(inertia);
-      const double xy = v.number("ixy", 0), xz = v.number("ixz", 0), yz = v.number("iyz", 0);
-      // read all numbers first: an error must not leave the matrix incomplete
-      const double xx = v.number("ixx"), yy = v.number("iyy"), zz = v.number("izz");
-      I << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-    }
-    const XmlValues values(mass);
-    const double m = values.number("value");
-    if (const auto wrong = fault(mass_rule, m); !wrong.empty()) values.fail("value", "{}", wrong);
-    const Pose X_LC = read_origin(element);
-    const Inertial inertial = set_inertial(body, m, X_LC, I);
-    inertial_faults_.add(inertia ? inertial : Inertial::not_given, element.place(), body.name);
-    pieces.has_inertial = true;
-  } catch (const Error& error) {
-    cache_.diagnostics().warn(
-        fmt::format("{}; the inertial of link '{}' is not used", error.what(), excerpt(body.name)));
-  }
-}
-
-std::optional<GeometryPiece> UrdfReader::read_geometry_of(const XmlElement& shape, bool visual) {
-  const XmlValues values(shape);
-  const std::string kind(shape.name());
-  const auto positive = [&](const char* name) {
-    const double length = repairs_.magnitude(values.number(name), values.subject(name));
-    if (!(length > 0)) values.fail(name, "expected a length > 0, got {}", length);
-    return length;
-  };
-  if (kind == "box") {
-    auto edges = values.numbers("size", 3, 3);
-    for (double& x : edges) {
-      x = repairs_.magnitude(x, values.subject("size"));
-      if (!(x > 0)) values.fail("size", "expected lengths > 0, got {}", x);
-    }
-    return geometry_.primitive(kind, edges);
-  }
-  if (kind == "sphere") return geometry_.primitive(kind, {positive("radius")});
-  if (kind != "mesh") return geometry_.primitive(kind, {positive("radius"), positive("length")});
-  GeometryPiece piece;
-  piece.scale = values.vec3("scale", {1, 1, 1});
-  if (piece.scale.cwiseAbs().minCoeff() == 0) values.fail("scale", "expected factors other than 0");
-  const std::string name = values.text("filename");
-  try {
-    piece.geometry = geometry_.file(find_robot_file(name, path_, cache_.options()));
-  } catch (const Error& error) {
-    // visual geometry may be missing
-    if (!visual) shape.fail("mesh: {}", error.what());
-    if (undrawn_++ == 0) first_undrawn_ = {shape.place().of("mesh"), error.what()};
-    return {};
-  }
-  return piece;
-}
-
-std::optional<GeometryPiece> UrdfReader::read_piece(const XmlElement& element,
-                                                    const std::string& link, bool visual) {
-  if (++piece_count_ > max_pieces)
-    element.fail("expected at most {} pieces of geometry", max_pieces);
-  unused_.attributes(element, {"name"});
-  for (const auto& child : element.children())
-    if (child.name() != "geometry" && child.name() != "origin" && child.name() != "material")
-      unused_.element(child);
-  const XmlElement geometry = element.expected("geometry");
-  unused_.attributes(geometry, {"name"});
-  constexpr std::string_view kinds[] = {"box", "sphere", "cylinder", "capsule", "mesh"};
-  XmlElement shape;
-  for (const auto& child : geometry.children()) {
-    if (std::find(std::begin(kinds), std::end(kinds), child.name()) == std::end(kinds))
-      unused_.element(child);
-    else if (shape)
-      child.fail("link '{}': expected one shape in a geometry, got a second, <{}>", excerpt(link),
-                 excerpt(child.name()));
-    else
-      shape = child;
-  }
-  if (!shape)
-    geometry.fail("link '{}': expected a box, sphere, cylinder, capsule or mesh, got none",
-                  excerpt(link));
-  unused_.attributes(shape, {"size", "radius", "length", "filename", "scale"});
-  auto piece = read_geometry_of(shape, visual);
-  if (!piece) return {};
-  piece->X_LG = read_origin(element);
-  if (const XmlElement material = element.child("material"); material && visual)
-    piece->color = read_color(material);
-  return piece;
-}
-
-void UrdfReader::read_link(const XmlElement& element) {
-  TreeLink link;
-  link.body.name = element.expected_attribute("name");
-  link.body.source = path_.generic_string();
-  if (link.body.name.empty()) element.fail("link: expected a name, got nothing");
-  const auto [other, is_new] =
-      link_numbers_.emplace(link.body.name, static_cast<int>(links_.size()));
-  if (!is_new) {
-    repairs_.add("link", element.place().of("link '{}'", excerpt(link.body.name)),
-                 "there is another one of this name; the first one counts");
-    return;
-  }
-  if (links_.size() >= max_links) element.fail("expected at most {} links", max_links);
-  unused_.attributes(element, {"name"});
-  LinkPieces pieces;
-  pieces.place = element.place();
-  for (const auto& child : element.children()) {
-    const bool visual = child.name() == "visual";
-    if (visual || child.name() == "collision") {
-      if (auto piece = read_piece(child, link.body.name, visual))
-        (visual ? pieces.visual : pieces.collision).push_back(std::move(*piece));
-    } else if (child.name() == "inertial") {
-      read_inertial(child, link.body, pieces);
-    } else {
-      unused_.element(child);
-    }
-  }
-  links_.push_back(std::move(link));
-  pieces_.push_back(std::move(pieces));
-}
-
 // --- joints ---
 
 int UrdfReader::link_of(const XmlElement& joint, const char* end) const {
   const XmlElement element = joint.expected(end);
   const std::string name = element.expected_attribute("link");
-  const auto found = link_numbers_.find(name);
-  if (found != link_numbers_.end()) return found->second;
+  const auto found = given_.numbers.find(name);
+  if (found != given_.numbers.end()) return found->second;
   element.fail("{}: no link {}{}", end, in_quotes(name),
-               did_you_mean(name, names_in(link_numbers_)));
+               did_you_mean(name, names_in(given_.numbers)));
 }
 
 void UrdfReader::read_joint_names(const XmlElement& element) {
@@ -276,14 +102,14 @@ void UrdfReader::read_joint_names(const XmlElement& element) {
       "type", {"revolute", "continuous", "prismatic", "fixed", "floating", "planar"}, "");
   joint.parent = link_of(element, "parent");
   joint.child = link_of(element, "child");
-  if (links_[joint.child].parent >= 0)
+  if (given_.links[joint.child].parent >= 0)
     element.fail("joint '{}': link '{}' has a parent already, '{}'", excerpt(joint.name),
-                 excerpt(links_[joint.child].body.name),
-                 excerpt(links_[links_[joint.child].parent].body.name));
+                 excerpt(given_.links[joint.child].body.name),
+                 excerpt(given_.links[given_.links[joint.child].parent].body.name));
   if (joint.parent == joint.child)
     element.fail("joint '{}': expected two links, got '{}' twice", excerpt(joint.name),
-                 excerpt(links_[joint.child].body.name));
-  links_[joint.child].parent = joint.parent;
+                 excerpt(given_.links[joint.child].body.name));
+  given_.links[joint.child].parent = joint.parent;
   unused_.attributes(element, {"name", "type"});
   for (const auto& child : element.children()) {
     constexpr std::string_view known[] = {"parent", "child", "origin",  "axis",
@@ -324,7 +150,7 @@ void UrdfReader::find_still_joints() {
 
 /// Pose of the joint's link in its parent; for moving joints, at position 0.
 Pose UrdfReader::read_joint_origin(const FileJoint& from) {
-  const Pose origin = read_origin(from.element);
+  const Pose origin = read_urdf_origin(from.element, unused_);
   const auto still = still_.find(from.name);
   if (still == still_.end() || still->second == 0) return origin;
   TreeJoint joint;
@@ -333,30 +159,35 @@ Pose UrdfReader::read_joint_origin(const FileJoint& from) {
   return origin * joint_pose(joint, still->second);
 }
 
-/// Orders links from the root, each after its parent, branches in the file's order.
-void UrdfReader::order_links() {
-  if (links_.empty()) xml_.root().fail("robot: expected links, got none");
+int UrdfReader::find_root() const {
+  if (given_.links.empty()) xml_.root().fail("robot: expected links, got none");
   std::vector<int> roots;
-  for (int i = 0; i < static_cast<int>(links_.size()); ++i)
-    if (links_[i].parent < 0) roots.push_back(i);
+  for (int i = 0; i < static_cast<int>(given_.links.size()); ++i)
+    if (given_.links[i].parent < 0) roots.push_back(i);
   if (roots.empty()) xml_.root().fail("robot: every link has a parent: its joints form a loop");
   if (roots.size() > 1)
     xml_.root().fail("robot: expected one link without a parent, got {}: '{}' and '{}'{}",
-                     roots.size(), excerpt(links_[roots[0]].body.name),
-                     excerpt(links_[roots[1]].body.name), roots.size() > 2 ? " among them" : "");
-  std::vector<std::vector<const FileJoint*>> below(links_.size());
+                     roots.size(), excerpt(given_.links[roots[0]].body.name),
+                     excerpt(given_.links[roots[1]].body.name),
+                     roots.size() > 2 ? " among them" : "");
+  return roots.front();
+}
+
+/// Orders links from the root, each after its parent, branches in the file's order.
+void UrdfReader::order_links() {
+  std::vector<std::vector<const FileJoint*>> below(given_.links.size());
   for (const FileJoint& joint : joints_) below[joint.parent].push_back(&joint);
   std::vector<LinkPieces> pieces;
   struct Step {
     int link, parent;
     const FileJoint* joint;
   };
-  std::vector<Step> stack = {{roots.front(), -1, nullptr}};
+  std::vector<Step> stack = {{find_root(), -1, nullptr}};
   while (!stack.empty()) {
     const Step step = stack.back();
     stack.pop_back();
     const int number = static_cast<int>(tree_.links.size());
-    TreeLink link = std::move(links_[step.link]);
+    TreeLink link = std::move(given_.links[step.link]);
     link.parent = step.parent;
     if (step.joint) {
       link.X_PL = read_joint_origin(*step.joint);
@@ -365,14 +196,14 @@ void UrdfReader::order_links() {
         link.joints.push_back(found->second);
     }
     tree_.links.push_back(std::move(link));
-    pieces.push_back(std::move(pieces_[step.link]));
+    pieces.push_back(std::move(given_.pieces[step.link]));
     for (auto it = below[step.link].rbegin(); it != below[step.link].rend(); ++it)
       stack.push_back({(*it)->child, number, *it});
   }
-  if (tree_.links.size() < links_.size())
+  if (tree_.links.size() < given_.links.size())
     xml_.root().fail("robot: {} of its links are connected to no root: their joints form a loop",
-                     links_.size() - tree_.links.size());
-  pieces_ = std::move(pieces);
+                     given_.links.size() - tree_.links.size());
+  given_.pieces = std::move(pieces);
 }
 
 void UrdfReader::read_axis(const FileJoint& from, TreeJoint& joint) {
@@ -463,25 +294,8 @@ void UrdfReader::read_mimics() {
   }
 }
 
-RobotSpec UrdfReader::read() {
-  const XmlElement root = xml_.root();
-  if (root.name() != "robot")
-    root.fail("expected an element <robot>, got <{}>", excerpt(root.name()));
-  refuse_xacro(root);
-  tree_.name = root.attribute("name").value_or("");
-  tree_.class_name = tree_.name;
-  if (tree_.name.empty()) tree_.name = path_.stem().string();
-  unused_.attributes(root, {"name", "version", "xmlns", "xmlns:xacro"});
-  read_materials();
-  for (const auto& child : root.children()) {
-    if (child.name() == "link")
-      read_link(child);
-    else if (child.name() != "joint" && child.name() != "material" && child.name() != "clench")
-      unused_.element(child);
-  }
-  const auto own = root.children("clench");
-  if (own.size() > 1) own[1].fail("robot: expected one <clench>, got another");
-  for (const auto& child : root.children("joint")) read_joint_names(child);
+void UrdfReader::read_joints() {
+  for (const auto& child : xml_.root().children("joint")) read_joint_names(child);
   find_still_joints();
   for (const FileJoint& joint : joints_) {
     if (joint.type == "floating" || joint.type == "planar")
@@ -493,9 +307,31 @@ RobotSpec UrdfReader::read() {
       tree_.joints.push_back(read_joint(joint));
     }
   }
+}
+
+RobotSpec UrdfReader::read() {
+  const XmlElement root = xml_.root();
+  if (root.name() != "robot")
+    root.fail("expected an element <robot>, got <{}>", excerpt(root.name()));
+  refuse_xacro(root);
+  tree_.name = root.attribute("name").value_or("");
+  tree_.class_name = tree_.name;
+  if (tree_.name.empty()) tree_.name = path_.stem().string();
+  unused_.attributes(root, {"name", "version", "xmlns", "xmlns:xacro"});
+  link_reader_.read_materials(root);
+  for (const auto& child : root.children()) {
+    if (child.name() == "link")
+      link_reader_.read_link(child);
+    else if (child.name() != "joint" && child.name() != "material" && child.name() != "clench")
+      unused_.element(child);
+  }
+  const auto own = root.children("clench");
+  if (own.size() > 1) own[1].fail("robot: expected one <clench>, got another");
+  given_ = link_reader_.take();
+  read_joints();
   order_links();
   read_mimics();
-  dress_links(tree_, pieces_, geometry_, file_, cache_, !own.empty());
+  dress_links(tree_, given_.pieces, link_reader_.geometry(), file_, cache_, !own.empty());
   std::function<bool(RobotSpec&)> known;
   if (!own.empty())
     known = [&](RobotSpec& made) {
@@ -505,19 +341,9 @@ RobotSpec UrdfReader::read() {
   RobotSpec robot = make_robot(std::move(tree_), file_, cache_, known);
   robot.source = path_.generic_string();
   repairs_.tell();
-  inertial_faults_.tell(cache_);
-  warn_of_undrawn();
+  link_reader_.report();
   for (Diagnostic& loss : unused_.diagnostics()) cache_.diagnostics().warn(std::move(loss));
   return robot;
-}
-
-// Hands with a missing package lack one mesh per link: one message reports all of them.
-void UrdfReader::warn_of_undrawn() const {
-  if (undrawn_ == 0) return;
-  Diagnostic first = first_undrawn_;
-  first.text += undrawn_ == 1 ? "; it is not drawn"
-                              : fmt::format("; it and {} other meshes are not drawn", undrawn_ - 1);
-  cache_.diagnostics().warn(std::move(first));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // JSON text from and to Lua values. Numbers are preserved bit-exactly; objects are written with
 // sorted keys.
 #pragma once
+#include <cstdint>
 #include <lua.hpp>
 #include <string>
 #include <string_view>
@@ -9,8 +10,15 @@ namespace clench {
 
 /// Pushes the value of a JSON text. null is clench.json.null in a list and absent from an object;
 /// an empty object is marked, so that it is written as one.
+/// max_values  maximum number of values, at all levels
 /// throws  Error "clench.json.decode: line 3, column 14: expected ',' or '}', got 'x'"
-void read_json(lua_State* L, std::string_view text);
+///         Error::limit "clench.json.decode: expected at most 100 values"
+void read_json(lua_State* L, std::string_view text, size_t max_values = SIZE_MAX);
+
+/// Pushes a table with the texts of the items of a JSON list, or of the values of an object by
+/// name. Of their syntax only strings and brackets are checked.
+/// throws  as read_json does; each item counts as one value
+void split_json(lua_State* L, std::string_view text, size_t max_values);
 
 /// The value at the index as JSON text; indent 0: on one line. A table with items 1..n is a list,
 /// one with names an object, an empty one a list unless read as an object. A metamethod __json can

@@ -13,14 +13,32 @@ namespace {
 
 class Reader {
  public:
-  Reader(lua_State* L, std::string_view text)
-      : L_(L), text_(text), budget_(L, "clench.json.decode", text.size()) {}
+  Reader(lua_State* L, std::string_view text, const char* name, size_t max_values)
+      : L_(L), text_(text), name_(name), max_values_(max_values), budget_(L, name, text.size()) {}
 
   void read() {
-    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+    begin();
     value(0);
+    end();
+  }
+
+  void split() {
+    begin();
+    lua_newtable(L_);
+    const char closing = peek() == '[' ? ']' : '}';
+    if (!take('[') && !take('{')) refuse("'[' or '{'");
     blanks();
-    if (at_ < text_.size()) refuse("the end");
+    for (lua_Integer i = 1; !take(closing); ++i) {
+      if (i > 1 && !take(',')) refuse(fmt::format("',' or '{}'", closing));
+      count();
+      if (closing == '}') name();
+      push(skip());
+      if (closing == '}')
+        lua_rawset(L_, -3);
+      else
+        lua_rawseti(L_, -2, i);
+    }
+    end();
   }
 
  private:
@@ -30,7 +48,7 @@ class Reader {
       ++column;
       if (text_[i] == '\n') ++line, column = 1;
     }
-    fail("clench.json.decode: line {}, column {}: {}", line, column, what);
+    fail("{}: line {}, column {}: {}", name_, line, column, what);
   }
 
   [[noreturn]] void refuse(const std::string& expected) const {
@@ -41,12 +59,11 @@ class Reader {
     complain(at_, "expected " + expected + ", got " + got);
   }
 
+  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
   char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
   bool take(char c) { return peek() == c && at_ < text_.size() ? ++at_, true : false; }
   void blanks() {
-    while (at_ < text_.size() &&
-           std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos)
-      ++at_;
+    while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
   }
 
   bool word(std::string_view name) {
@@ -55,8 +72,26 @@ class Reader {
     return true;
   }
 
-  void value(int depth) {
+  void begin() {
+    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+    blanks();
+  }
+
+  void end() {
+    blanks();
+    if (at_ < text_.size()) refuse("the end");
+  }
+
+  void push(std::string_view text) { lua_pushlstring(L_, text.data(), text.size()); }
+
+  void count() {
     budget_.check();
+    if (++values_ > max_values_)
+      fail(ErrorKind::limit, "{}: expected at most {} values", name_, max_values_);
+  }
+
+  void value(int depth) {
+    count();
     if (depth > json_depth) complain(at_, fmt::format("nested deeper than {} levels", json_depth));
     if (!lua_checkstack(L_, 8)) complain(at_, "too many values on Lua's stack");
     blanks();
@@ -64,8 +99,7 @@ class Reader {
     if (c == '{') return object(depth);
     if (c == '[') return list(depth);
     if (c == '"') {
-      const std::string& text = string();
-      lua_pushlstring(L_, text.data(), text.size());
+      push(string());
     } else if (c == '-' || (c >= '0' && c <= '9')) {
       number();
     } else if (word("true") || word("false")) {
@@ -97,17 +131,13 @@ class Reader {
     blanks();
     if (take('}')) return mark_json_object(L_);
     for (;;) {
-      blanks();
-      if (peek() != '"') refuse("a name in double quotes");
-      const std::string& name = string();
-      lua_pushlstring(L_, name.data(), name.size());
-      blanks();
-      if (!take(':')) refuse("':'");
-      value(depth + 1);
-      push_json_null(L_);
-      const bool null = lua_rawequal(L_, -1, -2);
-      lua_pop(L_, 1);
-      if (null) lua_pop(L_, 1), lua_pushnil(L_);
+      name();
+      if (word("null")) {
+        count();
+        lua_pushnil(L_);
+      } else {
+        value(depth + 1);
+      }
       lua_rawset(L_, -3);
       blanks();
       if (take('}')) break;
@@ -116,6 +146,45 @@ class Reader {
     lua_pushnil(L_);
     if (!lua_next(L_, -2)) return mark_json_object(L_);
     lua_pop(L_, 2);
+  }
+
+  // the name of a field, and the colon after it
+  void name() {
+    blanks();
+    if (peek() != '"') refuse("a name in double quotes");
+    push(string());
+    blanks();
+    if (!take(':')) refuse("':'");
+    blanks();
+  }
+
+  // the text of a value, without blanks around it
+  std::string_view skip() {
+    blanks();
+    const size_t start = at_;
+    size_t end = at_, depth = 0;
+    for (; at_ < text_.size(); ++at_) {
+      const char c = text_[at_];
+      if (c == '"') {
+        skip_string();
+      } else if (c == '[' || c == '{') {
+        ++depth;
+      } else if (depth == 0 && (c == ',' || c == ']' || c == '}')) {
+        break;
+      } else if (c == ']' || c == '}') {
+        --depth;
+      }
+      if (!is_blank(c)) end = at_ + 1;
+    }
+    if (end == start) refuse("a value");
+    return text_.substr(start, end - start);
+  }
+
+  // from its opening to its closing quote
+  void skip_string() {
+    const size_t start = at_++;
+    while (at_ < text_.size() && text_[at_] != '"') at_ += text_[at_] == '\\' ? 2 : 1;
+    if (at_ >= text_.size()) complain(start, "a string that never ends");
   }
 
   bool digits() {
@@ -206,13 +275,20 @@ class Reader {
 
   lua_State* L_;
   std::string_view text_;
-  size_t at_ = 0;
+  const char* name_;  ///< of the function, for messages
+  size_t at_ = 0, values_ = 0, max_values_;
   std::string scratch_;
   LuaBudget budget_;
 };
 
 }  // namespace
 
-void read_json(lua_State* L, std::string_view text) { Reader(L, text).read(); }
+void read_json(lua_State* L, std::string_view text, size_t max_values) {
+  Reader(L, text, "clench.json.decode", max_values).read();
+}
+
+void split_json(lua_State* L, std::string_view text, size_t max_values) {
+  Reader(L, text, "clench.json.split", max_values).split();
+}
 
 }  // namespace clench

@@ -42,27 +42,45 @@ class Writer {
   std::string out;
 
  private:
+  // ".links[2]": of the value that is being written
+  std::string path() const {
+    std::string text;
+    for (const Step& step : steps_)
+      text += step.item ? fmt::format("[{}]", step.item) : '.' + std::string(step.name);
+    return text;
+  }
+
   [[noreturn]] void refuse(const std::string& expected, int index = 0) const {
-    fail("clench.json.encode: value{}: expected {}{}", path_, expected,
+    fail("clench.json.encode: value{}: expected {}{}", path(), expected,
          index ? ", got " + described(L_, index) : "");
   }
 
   void number(int index) {
     if (lua_isinteger(L_, index)) {
-      out += fmt::format("{}", lua_tointeger(L_, index));
+      fmt::format_to(std::back_inserter(out), "{}", lua_tointeger(L_, index));
       return;
     }
     const double x = lua_tonumber(L_, index);
     if (!std::isfinite(x)) refuse("a finite number", index);
     // the shortest digits, at most 17, that read back bit-exactly; floats remain floats
-    std::string text = fmt::format("{}", x);
-    if (text.find_first_of(".e") == std::string::npos) text += ".0";
-    out += text;
+    const size_t start = out.size();
+    fmt::format_to(std::back_inserter(out), "{}", x);
+    if (out.find_first_of(".e", start) == std::string::npos) out += ".0";
+  }
+
+  // number of letters at the beginning that are written as they are
+  static size_t plain_size(std::string_view text) {
+    const auto is_plain = [](char c) { return c >= 0x20 && c < 0x7F && c != '"' && c != '\\'; };
+    return static_cast<size_t>(std::ranges::find_if_not(text, is_plain) - text.begin());
   }
 
   void string(std::string_view text) {
     out += '"';
     for (size_t i = 0; i < text.size();) {
+      const size_t plain = plain_size(text.substr(i));
+      out += text.substr(i, plain);
+      i += plain;
+      if (i == text.size()) break;
       const size_t size = utf8_size(text, i);
       if (!size)
         refuse(fmt::format("text in UTF-8, got the byte {}", static_cast<unsigned char>(text[i])));
@@ -83,18 +101,23 @@ class Writer {
     out += '"';
   }
 
-  void compound(int index, int depth) {
+  bool is_null(int index) {
+    if (lua_type(L_, index) != LUA_TUSERDATA) return false;
     push_json_null(L_);
     const bool null = lua_rawequal(L_, -1, index);
     lua_pop(L_, 1);
-    if (null) {
+    return null;
+  }
+
+  void compound(int index, int depth) {
+    if (is_null(index)) {
       out += "null";
       return;
     }
     if (depth >= json_depth) refuse(fmt::format("at most {} levels of tables", json_depth));
     if (luaL_getmetafield(L_, index, "__json") != LUA_TNIL) {
       lua_pushvalue(L_, index);
-      call_script(L_, 1, 1, fmt::format("clench.json.encode: value{}: __json", path_));
+      call_script(L_, 1, 1, fmt::format("clench.json.encode: value{}: __json", path()));
       if (++conversions_ > json_depth) refuse("a finite chain of __json values");
       value(-1, depth);
       --conversions_;
@@ -136,13 +159,12 @@ class Writer {
 
   void list(int index, lua_Integer size, int depth) {
     out += '[';
-    const size_t length = path_.size();
     for (lua_Integer i = 1; i <= size; ++i) {
       separate(i == 1, depth + 1);
       lua_rawgeti(L_, index, i);
-      path_ += fmt::format("[{}]", i);
+      steps_.push_back({.item = i});
       value(-1, depth + 1);
-      path_.resize(length);
+      steps_.pop_back();
       lua_pop(L_, 1);
     }
     close(size > 0, depth, ']');
@@ -151,16 +173,15 @@ class Writer {
   void object(int index, std::vector<std::string>& names, int depth) {
     std::sort(names.begin(), names.end());
     out += '{';
-    const size_t length = path_.size();
     for (size_t i = 0; i < names.size(); ++i) {
       separate(i == 0, depth + 1);
-      path_ += "." + names[i];
+      steps_.push_back({.name = names[i]});
       string(names[i]);
       out += indent_ ? ": " : ":";
       lua_pushlstring(L_, names[i].data(), names[i].size());
       lua_rawget(L_, index);
       value(-1, depth + 1);
-      path_.resize(length);
+      steps_.pop_back();
       lua_pop(L_, 1);
     }
     close(!names.empty(), depth, '}');
@@ -176,10 +197,16 @@ class Writer {
     out += bracket;
   }
 
+  // from a table to a value in it
+  struct Step {
+    lua_Integer item = 0;   // of a list; 0: the value has a name
+    std::string_view name;  // valid while the object is written
+  };
+
   lua_State* L_;
   int indent_;
   int conversions_ = 0;  // chain of values returned by __json
-  std::string path_;
+  std::vector<Step> steps_;
   std::vector<const void*> open_;
 };
 

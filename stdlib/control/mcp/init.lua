@@ -89,7 +89,7 @@ local function call_tool(context, params, id)
   local ok, result = pcall(function()
     local args = params.arguments
     if args ~= nil and type(args) ~= "table" then failure.raise("params", "arguments: expected an object of arguments by name") end
-    return clench.json.encode(values.of(methods.call(of_call, method, args or {}, true)))
+    return values.text(values.of(methods.call(of_call, method, args or {}, true)))
   end)
   local is_cancelled = job ~= nil and cancelled[job]
   if id ~= nil and client.running[id] == job then client.running[id] = nil end

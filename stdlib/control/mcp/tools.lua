@@ -67,14 +67,22 @@ local function described(server, description)
           annotations = {readOnlyHint = reads, destructiveHint = not reads and not is_edit, openWorldHint = server.folder ~= nil and not reads}}
 end
 
---- All tools, by name.
-function tools.list(server)
+local function find_tools(server, names)
   local list = {}
-  for _, name in ipairs(methods.names(server.session)) do
+  for _, name in ipairs(names) do
     local description = methods.describe(server.session, name)
     if is_offered(server, description) then list[#list + 1] = described(server, description) end
   end
   return list
+end
+
+local known = setmetatable({}, {__mode = "k"})  -- by server: its tools, and the list of methods that they were made of
+
+--- All tools, by name; not to be changed.
+function tools.list(server)
+  local names = methods.names(server.session)
+  if not known[server] or known[server].names ~= names then known[server] = {names = names, tools = find_tools(server, names)} end
+  return known[server].tools
 end
 
 --- The method of a tool.

@@ -28,11 +28,21 @@ local function described(session, name)
   return description
 end
 
+local descriptions = setmetatable({}, {__mode = "k"})  -- of all methods, by their list of names: JSON text
+
+local function describe_all(session)
+  local names = methods.names(session)
+  if not descriptions[names] then
+    local out = {}
+    for i, name in ipairs(names) do out[i] = described(session, name) end
+    descriptions[names] = values.encoded(values.text(values.of(out)))
+  end
+  return descriptions[names]
+end
+
 local function describe(context, args)
   if args.method then return described(context.session, args.method) end
-  local out = {}
-  for i, name in ipairs(methods.names(context.session)) do out[i] = described(context.session, name) end
-  return out
+  return describe_all(context.session)
 end
 
 methods.add {

@@ -36,14 +36,15 @@ local function watch(context, number, kept, on_end)
   clench.loop.spawn(function()
     local state
     repeat
-      local over = clench.loop.wait(kept.job, 0.05)
+      clench.loop.wait(kept.job, 0.05)
+      local now = kept.job.state  -- once: the job may end at any time
       for _, event in ipairs(kept.job:events()) do notify(client, "job.event", {job = number, event = event}) end
-      if over and on_end then
+      if is_over[now] and on_end then
         local ok, problem = pcall(on_end, kept)
         if not ok then kept.problem = problem end
       end
-      if kept.job.state ~= state then
-        state = kept.job.state
+      if now ~= state then
+        state = now
         notify(client, "job.state", described_job(number, kept))
       end
     until is_over[state]

@@ -11,6 +11,7 @@ local suggest = require "clench.suggest"
 local methods = {}
 
 local own = {}  -- by name
+local known_names = setmetatable({}, {__mode = "k"})  -- by session: the list, and the number of registrations when it was made
 
 --- Adds methods of the server.
 ---@param list table[]
@@ -18,8 +19,7 @@ function methods.add(list)
   for _, method in ipairs(list) do own[method.name] = method end
 end
 
---- Names of all methods, sorted. A method of the server hides a command of the same name.
-function methods.names(session)
+local function find_names(session)
   local names = {}
   for name in pairs(own) do names[#names + 1] = name end
   for _, name in ipairs(commands.names(session)) do
@@ -27,6 +27,16 @@ function methods.names(session)
   end
   table.sort(names)
   return names
+end
+
+--- Names of all methods, sorted; not to be changed. A method of the server hides a command of the same name.
+function methods.names(session)
+  local known = known_names[session]
+  if not known or known.registrations ~= session.registrations then
+    known = {names = find_names(session), registrations = session.registrations}
+    known_names[session] = known
+  end
+  return known.names
 end
 
 --- Is a method so long that it runs as a job?

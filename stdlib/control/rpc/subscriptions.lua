@@ -8,14 +8,11 @@ local max_subscriptions = 32  -- of one client
 local of_world = {contact = true, contact_lost = true, limit = true}
 local of_session = {changed = true, diagnostic = true, result = true}
 
-local function new_number(context)
-  local client = context.client
+local function check_number(client)
   client.subscriptions = client.subscriptions or {}
   local n = 0
   for _ in pairs(client.subscriptions) do n = n + 1 end
   if n >= max_subscriptions then failure.raise("refused", "a client has at most %d subscriptions", max_subscriptions) end
-  client.subscription_count = (client.subscription_count or 0) + 1
-  return client.subscription_count
 end
 
 -- listens to a world, and to the one that replaces it
@@ -35,17 +32,54 @@ local function follow_world(session, event, f)
   end
 end
 
+local function remove(group, subscriber)
+  for i, one in ipairs(group.subscribers) do
+    if one == subscriber then table.remove(group.subscribers, i) break end
+  end
+  if #group.subscribers == 0 then group.finish() end
+end
+
+-- adds a client to a group, until it unsubscribes; returns the result of the request
+local function join(context, group)
+  local client = context.client
+  client.subscription_count = (client.subscription_count or 0) + 1
+  local number = client.subscription_count
+  local subscriber = {client = client, head = group.head:format(number)}
+  table.insert(group.subscribers, subscriber)
+  client.subscriptions[number] = function() remove(group, subscriber) end
+  return {subscription = number}
+end
+
+-- sends an event to all subscribers of a group
+local function send_event(group, value)
+  local tail = values.text(values.of(value)) .. "}}\n"
+  for _, subscriber in ipairs {table.unpack(group.subscribers)} do subscriber.client:send(subscriber.head .. tail) end
+end
+
+-- subscribers to the same event share a listener and a text
+local function event_group_of(server, event)
+  local groups, session = server.event_groups or {}, server.session
+  server.event_groups = groups
+  if not groups[event] then
+    local group = {subscribers = {}, head = ('{"jsonrpc":"2.0","method":"event","params":{"event":"%s","subscription":%%d,"value":'):format(event)}
+    local function send(value) send_event(group, value) end
+    local stop = of_world[event] and follow_world(session, event, send) or session:subscribe(event, send)
+    function group.finish()
+      stop()
+      groups[event] = nil
+    end
+    groups[event] = group
+  end
+  return groups[event]
+end
+
 local function subscribe(context, args)
   local event = args.event
   if not of_world[event] and not of_session[event] then
     failure.raise("params", "event: expected contact, contact_lost, limit, changed, diagnostic or result, got %s", described(event))
   end
-  local number = new_number(context)
-  local client, notify = context.client, context.notify
-  local function send(value) notify(client, "event", {subscription = number, event = event, value = value}) end
-  local stop = of_world[event] and follow_world(context.session, event, send) or context.session:subscribe(event, send)
-  client.subscriptions[number] = stop
-  return {subscription = number}
+  check_number(context.client)
+  return join(context, event_group_of(context.server, event))
 end
 
 local function snapshot_of(world, parts)
@@ -55,7 +89,7 @@ local function snapshot_of(world, parts)
   return value
 end
 
-local function snapshot_text(world, parts) return world and clench.json.encode(values.of(snapshot_of(world, parts))) or "null" end
+local function snapshot_text(world, parts) return world and values.text(values.of(snapshot_of(world, parts))) or "null" end
 
 local reused_for = 4  -- times as long as it took to make it
 
@@ -77,24 +111,25 @@ local function period_of(rate) return rate > 50 and math.ceil(1000 / rate - 1e-9
 -- sends a snapshot to the subscribers of a group whose last one differs from it
 local function send_snapshots(server, group)
   local text = shared_text(server, group.parts)
+  local tail = text .. "}}\n"
   for _, subscriber in ipairs {table.unpack(group.subscribers)} do
     local client = subscriber.client
     -- a client that has not yet received the last one is sent a later one
     if client.port.queued == 0 and text ~= subscriber.last then
       subscriber.last = text
-      client:send(('{"jsonrpc":"2.0","method":"snapshot","params":{"subscription":%d,"value":%s}}\n'):format(subscriber.number, text))
+      client:send(subscriber.head .. tail)
     end
   end
 end
 
 -- subscribers to the same content at the same rate share a timer and a text
-local function group_of(server, parts)
+local function state_group_of(server, parts)
   local period = period_of(parts.rate)
   local key = ("%.17g %s %s"):format(period, parts.poses, parts.contacts)
   local groups = server.snapshot_groups or {}
   server.snapshot_groups = groups
   if not groups[key] then
-    local group = {parts = parts, subscribers = {}}
+    local group = {parts = parts, subscribers = {}, head = '{"jsonrpc":"2.0","method":"snapshot","params":{"subscription":%d,"value":'}
     group.timer = clench.loop.every(period, function() send_snapshots(server, group) end)
     function group.finish()
       group.timer:remove()
@@ -105,19 +140,9 @@ local function group_of(server, parts)
   return groups[key]
 end
 
-local function remove(group, subscriber)
-  for i, one in ipairs(group.subscribers) do
-    if one == subscriber then table.remove(group.subscribers, i) break end
-  end
-  if #group.subscribers == 0 then group.finish() end
-end
-
 local function subscribe_state(context, args)
-  local number, client = new_number(context), context.client
-  local group, subscriber = group_of(context.server, args), {client = client, number = number}
-  table.insert(group.subscribers, subscriber)
-  client.subscriptions[number] = function() remove(group, subscriber) end
-  return {subscription = number}
+  check_number(context.client)
+  return join(context, state_group_of(context.server, args))
 end
 
 local subscriptions = {}

@@ -60,7 +60,17 @@ function convert(value, depth)
   return {type = kind, text = in_utf8(tostring(value))}
 end
 
---- A value as plain data for clench.json.encode.
-function values.of(value) return convert(value, 0) end
+local Encoded = {}
+local getmetatable = debug.getmetatable
+
+--- A result that is JSON text already.
+---@param text string
+function values.encoded(text) return setmetatable({text = text}, Encoded) end
+
+--- A value as plain data, for values.text.
+function values.of(value) return getmetatable(value) == Encoded and value or convert(value, 0) end
+
+--- Plain data as JSON text.
+function values.text(plain) return getmetatable(plain) == Encoded and plain.text or clench.json.encode(plain) end
 
 return values

@@ -2,19 +2,17 @@
 local units = require "clench.control.text.units"
 local commands = {}
 
--- moveDynamicBodies [dt]
+-- moveDynamicBodies [dt]: replies with the simulated time that has passed
 function commands.moveDynamicBodies(world, words)
-  local dt = words:peek() and words:number "a time in seconds" or world.time_step
+  local dt = words:seconds(world.time_step)
   words:done()
-  if dt <= 0 then words.fail("moveDynamicBodies: expected a time > 0 s, got %s", units.text(dt)) end
   return {units.text(world:move_bodies(dt))}
 end
 
--- computeNewVelocities dt: 0, or 1 if the solver did not reach its accuracy
+-- computeNewVelocities dt: replies with 0, or with 1 if the solver did not converge
 function commands.computeNewVelocities(world, words)
-  local dt = words:number "a time in seconds"
+  local dt = words:seconds()
   words:done()
-  if dt <= 0 then words.fail("computeNewVelocities: expected a time > 0 s, got %s", units.text(dt)) end
   local before = world.report.failures
   world:solve_velocities(dt)
   return {world.report.failures == before and "0" or "1"}

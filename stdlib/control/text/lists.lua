@@ -1,4 +1,5 @@
 --- Lists of bodies and robots in the form of the text protocol: `ALL`, or a count followed by that number of indices, from 0.
+--- A list is not longer than `ALL`, so that a short line cannot request an endless reply.
 local lists = {}
 
 ---@param kind string  "body" or "robot"
@@ -16,6 +17,7 @@ function lists.read(words, kind, all)
   for i = 1, count do
     local index = words:index()
     chosen[i] = all[index + 1] or words.fail("Cannot find %s %d", kind, index)
+    if i > #all then words.fail("%s: expected at most %d indices, got %d", words.command, #all, count) end
   end
   return chosen, {}
 end

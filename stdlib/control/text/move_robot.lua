@@ -1,14 +1,12 @@
 --- Moves of robots as in the text protocol: each DOF by its own step size, until the first contact.
 local units = require "clench.control.text.units"
 
-local function clamp(x, low, high) return math.max(low, math.min(high, x)) end
-
 -- Moves DOFs from their present values, each by its own step size, until the first contact: a DOF with few steps arrives before the others.
 local function move(robot, goals, steps)
   local start, arrivals, times = robot.dofs, {}, {}
   for i, goal in ipairs(goals) do
     local limits = robot.dof_limits[i]
-    goals[i] = robot.dof_info[i].endless and goal or clamp(goal, limits[1], limits[2])
+    goals[i] = robot.dof_info[i].endless and goal or math.max(limits[1], math.min(limits[2], goal))
     times[i] = steps[i] == 0 and math.huge or math.abs((goals[i] - start[i]) / steps[i])
     if times[i] > 0 and times[i] < math.huge then arrivals[#arrivals + 1] = times[i] end
   end

@@ -31,8 +31,7 @@ local function move(pending)
   words:next()
   local moves = {}
   for r, robot in ipairs(pending.robots) do
-    local count = words:index "the number of DOFs"
-    if count ~= #robot.dofs then words.fail("robot has %d DOF.", #robot.dofs) end
+    local count = words:dof_count(robot)
     moves[r] = {values = words:numbers(count, "values"), steps = words:numbers(count, "steps")}
   end
   words:done()

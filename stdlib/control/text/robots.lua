@@ -28,13 +28,10 @@ function commands.getDOFVals(world, words)
   return reply
 end
 
-local function clamp(x, low, high) return math.max(low, math.min(high, x)) end
-
 -- moveDOFs robot n v1 ... vn s1 ... sn
 function commands.moveDOFs(world, words)
   local robot = world.robots[words:index "the index of a robot" + 1] or words.fail "Robot does not exist."
-  local count = words:index "the number of DOFs"
-  if count ~= #robot.dofs then words.fail("robot has %d DOF.", #robot.dofs) end
+  local count = words:dof_count(robot)
   local values, steps = words:numbers(count, "values"), words:numbers(count, "steps")
   words:done()
   return move_robot(world, robot, values, steps)
@@ -45,15 +42,13 @@ function commands.setDOFForces(world, words)
   local robots, reply = lists.read(words, "robot", world.robots)
   local forces = {}
   for r, robot in ipairs(robots) do
-    local count = words:index "the number of DOFs"
-    if count ~= #robot.dofs then words.fail("robot has %d DOF.", #robot.dofs) end
-    forces[r] = words:numbers(count, "forces")
+    forces[r] = words:numbers(words:dof_count(robot), "forces")
   end
   words:done()
-  -- nothing is set unless the complete line is right
+  -- nothing is set unless the complete line is valid
   for r, robot in ipairs(robots) do
     local _, factors = units.of_dofs(world, robot)
-    for i, range in ipairs(robot.effort_ranges) do forces[r][i] = clamp(forces[r][i] / factors[i], range[1], range[2]) end
+    for i, range in ipairs(robot.effort_ranges) do forces[r][i] = math.max(range[1], math.min(range[2], forces[r][i] / factors[i])) end
     robot.controller = "none"
     robot:set_forces(forces[r])
     units.add_values(reply, forces[r], factors)

@@ -16,7 +16,7 @@ function units.add_values(reply, values, factors)
   for i, value in ipairs(values) do reply[#reply + 1] = units.text(value * factors[i]) end
 end
 
--- For each DOF of a robot: does it slide?
+-- by DOF of a robot: does it slide?
 local function slides(robot)
   local list = {}
   for i in ipairs(robot.dofs) do list[i] = false end
@@ -28,7 +28,7 @@ local function slides(robot)
   return list
 end
 
-local known = setmetatable({}, {__mode = "k"})  -- by world: {robot, value, effort} by the name of the robot
+local cached = setmetatable({}, {__mode = "k"})  -- factors by world and name of a robot: {robot, value, effort}
 
 local function find_factors(robot)
   local value, effort = {}, {}
@@ -40,8 +40,8 @@ end
 
 --- Factors from SI to the protocol's unit, of values (rad, mm) and efforts, per DOF.
 function units.of_dofs(world, robot)
-  local of_world = known[world] or {}
-  known[world] = of_world
+  local of_world = cached[world] or {}
+  cached[world] = of_world
   local name = robot.name
   local factors = of_world[name]
   if not factors or factors.robot ~= robot then

@@ -25,7 +25,7 @@ end
 --- A finite number in decimal notation.
 function Words:number(what) return read(self, what or "a number", "^[+-]?[%d.]+[eE]?[+-]?%d*$") end
 
---- A whole number from 0.
+--- An integer >= 0.
 function Words:index(what)
   local number = math.tointeger(read(self, what or "an index", "^%d+$"))
   return number or Words.fail("%s: expected %s below 2^63", self.command, what or "an index")
@@ -37,6 +37,20 @@ function Words:numbers(count, what)
   local list = {}
   for i = 1, count do list[i] = self:number() end
   return list
+end
+
+--- The number of DOFs of a robot, which a line must repeat.
+function Words:dof_count(robot)
+  local count = self:index "the number of DOFs"
+  if count ~= #robot.dofs then Words.fail("robot has %d DOF.", #robot.dofs) end
+  return count
+end
+
+--- A time > 0; the default if there are no more words, and one is given [s].
+function Words:seconds(default)
+  local seconds = default and not self:peek() and default or self:number "a time in seconds"
+  if seconds <= 0 then Words.fail("%s: expected a time > 0 s, got %.9g", self.command, seconds) end
+  return seconds
 end
 
 --- Rejects further words.

@@ -1,7 +1,7 @@
 --- The script of the live page that follows the world: JSON-RPC over a WebSocket, the places of bodies, contacts, forces and the camera. It follows the script of
 --- the bodies; the script of the panels follows it.
 return [==[
-const caption = view.querySelector(".shown"), problem = document.getElementById("problem"), told = document.documentElement.dataset;
+const caption = view.querySelector(".shown"), problem = document.getElementById("problem"), stats = document.documentElement.dataset;
 const token = new URLSearchParams(location.search).get("token");
 const rate = 30;  // of snapshots [Hz]
 let socket = null, number = 0, latest = null;
@@ -31,10 +31,10 @@ async function begin() {
   await call("hello", {client: "live page", token: token || undefined});
   await call("subscribe", {event: "changed"});
   if (data.scene !== "") {
-    await listThings();
+    await listRobots();
     await call("subscribe_state", {rate, poses: true, contacts: true});
   }
-  told.connected = "true";
+  stats.connected = "true";
   report(null);
 }
 
@@ -46,7 +46,7 @@ function connect() {
   socket.onmessage = event => receive(JSON.parse(event.data));
   socket.onclose = () => {
     caption.textContent = "no connection";
-    told.connected = "false";
+    stats.connected = "false";
     for (const request of unanswered.values()) request.reject(new Error("the connection was lost"));
     unanswered.clear();
     setTimeout(connect, 2000);
@@ -113,7 +113,7 @@ function showState(state) {
   const objects = new Set(state.objects.map(one => one.body));
   state.contacts = (state.contacts || []).map(contact => fromObject(contact, objects));
   latest = state;
-  told.frames = Number(told.frames || 0) + 1;
+  stats.frames = Number(stats.frames || 0) + 1;
   caption.textContent = state.time.toFixed(3) + " s";
   refresh();
   if (isFirst) { isFirst = false; startView(); }

@@ -48,7 +48,7 @@ async function send(robot, row) {
   }
   row.isSending = false;
 }
-async function listThings() {
+async function listRobots() {
   const list = await call("world.list"), panel = document.getElementById("dofs");
   panel.textContent = "";
   rows.clear();
@@ -130,8 +130,8 @@ function drawPlot({canvas, points}) {
   canvas.height = height * ratio;
   const pen = canvas.getContext("2d");
   pen.scale(ratio, ratio);
-  const least = Math.min(...points.map(p => p[1])), most = Math.max(...points.map(p => p[1]));
-  const margin = Math.max((most - least) * 0.1, 1e-9, 1e-4 * Math.abs(most)), low = least - margin, high = most + margin;
+  const min = Math.min(...points.map(p => p[1])), max = Math.max(...points.map(p => p[1]));
+  const margin = Math.max((max - min) * 0.1, 1e-9, 1e-4 * Math.abs(max)), low = min - margin, high = max + margin;
   pen.strokeStyle = "#1f6feb";
   pen.lineWidth = 1.5;
   pen.beginPath();
@@ -145,8 +145,8 @@ function drawPlot({canvas, points}) {
   pen.stroke();
   pen.fillStyle = "#5d6b7a";
   pen.font = "10px sans-serif";
-  pen.fillText(shown(most), 3, 11);
-  pen.fillText(shown(least), 3, height - 4);
+  pen.fillText(shown(max), 3, 11);
+  pen.fillText(shown(min), 3, height - 4);
 }
 function addPoints(state) {
   const now = performance.now() / 1000, found = quantitiesOf(state);

@@ -14,7 +14,8 @@ local function fault(status, format, ...) return nil, status, format:format(...)
 local function read_fields(lines)
   local fields, count = {}, 0
   for i = 2, #lines do
-    local name, value = lines[i]:match "^([^:]*):[ \t]*(.-)[ \t]*$"
+    local name, value = lines[i]:match "^([^:]*):[ \t]*(.*)$"
+    value = value and value:match "^(.*[^ \t])" or ""
     if not name or not name:find(token) then return fault(400, "line %d is no header field", i) end
     if value:find "[\0-\8\10-\31\127]" then return fault(400, "line %d has control characters", i) end
     name, count = name:lower(), count + 1
@@ -40,7 +41,8 @@ local function read_target(target)
   local path, query = target:match "^(/[%w/._-]*)%??(.*)$"
   if not path then return fault(400, "the target is no path") end
   local parameters = {}
-  for name, value in query:gmatch "([^&=]+)=([^&]*)" do
+  for part in query:gmatch "[^&]+" do
+    local name, value = part:match "^([^=]*)=?(.*)$"
     if parameters[name] then return fault(400, "the parameter '%s' is given twice", name:gsub("%W", "?")) end
     parameters[name] = value
   end

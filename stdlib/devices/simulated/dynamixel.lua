@@ -38,20 +38,22 @@ local function new_motor()
   return motor
 end
 
--- has its watchdog stopped it?
+-- the time until which a motor moves: the present one, or that at which its watchdog has stopped it
 local function update_watchdog(motor, now)
-  local period = motor.memory[98]
-  if period > 0 and period < 128 and now - motor.heard > 0.02 * period then motor.memory[98] = 255 end
+  local period, heard = motor.memory[98], motor.heard
   motor.heard = now
+  if period == 0 or period >= 128 or now - heard <= 0.02 * period then return now end
+  motor.memory[98] = 255
+  return heard + 0.02 * period
 end
 
 -- brings a motor to the present time
 local function update(line, motor)
   local now = loop.time()
-  local step = line.speed * 4096 / (2 * math.pi) * (now - motor.time)
-  update_watchdog(motor, now)
-  if motor.memory[64] == 1 and motor.memory[98] ~= 255 then
-    local goal = number_at(motor, 116, "<i4")
+  local is_moving = motor.memory[64] == 1 and motor.memory[98] ~= 255
+  local last = update_watchdog(motor, now)
+  if is_moving then
+    local goal, step = number_at(motor, 116, "<i4"), line.speed * 4096 / (2 * math.pi) * (last - motor.time)
     motor.position = motor.position + math.max(-step, math.min(step, goal - motor.position))
   end
   motor.time = now

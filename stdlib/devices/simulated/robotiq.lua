@@ -13,13 +13,13 @@ local function update(gripper)
   gripper.position = gripper.position + math.max(-step, math.min(step, stop - gripper.position))
   if math.abs(gripper.position - stop) < 0.5 then
     gripper.position, gripper.is_moving = stop, false
-    gripper.met = stop ~= goal and 2 or 3
+    gripper.object_status = stop ~= goal and 2 or 3
   end
 end
 
 local function status_bytes(gripper)
   local active = gripper.is_active and 0x31 or 0
-  local object = gripper.is_moving and 0 or gripper.met
+  local object = gripper.is_moving and 0 or gripper.object_status
   return string.char(active | (gripper.has_goal and 0x08 or 0) | object << 6, 0, 0, gripper.goal, math.floor(gripper.position + 0.5), gripper.is_moving and 20 or 0)
 end
 
@@ -63,6 +63,6 @@ return function(options)
   return new_line("robotiq", options, function(o)
     local object = o:raw "object"
     if object ~= nil and (math.type(object) ~= "integer" or object < 0 or object > 255) then o:expected("object", "a number from 0 to 255", object) end
-    return {slave = o:get "slave", full_time = o:get "full_time", object = object, position = 0, goal = 0, met = 3, time = loop.time(), stops = 0}
+    return {slave = o:get "slave", full_time = o:get "full_time", object = object, position = 0, goal = 0, object_status = 3, time = loop.time(), stops = 0}
   end, serve)
 end

@@ -23,12 +23,12 @@ end
 
 -- 0: moving, 1: an object has stopped some fingers, 2: objects have stopped all, 3: all have reached their goals
 local function motion(hand)
-  local met = 0
+  local stopped = 0
   for i, axis in ipairs(hand.axes) do
     if hand.goes and axis.state == 0 then return 0 end
-    if i <= 3 and axis.state == 2 then met = met + 1 end
+    if i <= 3 and axis.state == 2 then stopped = stopped + 1 end
   end
-  return met == 0 and 3 or met == 3 and 2 or 1
+  return stopped == 0 and 3 or stopped == 3 and 2 or 1
 end
 
 local function status(hand)

@@ -1,6 +1,7 @@
 --- Commands that author grasps: from a pregrasp in phases to the grasp, a tug test, and names and notes that are stored in files.
 local arguments = require "clench.session.arguments"
 local conditions = require "clench.session.conditions"
+local described = require "clench.described"
 local phases = require "clench.session.phases"
 local raise = require "clench.raise"
 local script = require "clench.session.script"
@@ -15,6 +16,11 @@ local function check(name, args)
     raise(("session: %s: pregrasp: expected {pose = a pose, dofs = a list of numbers}"):format(name))
   end
   phases.check("session: " .. name, args.phases or {})
+end
+
+-- a text that files of grasps can store
+local function check_text(name, text, pattern, what)
+  if text and (not utf8.len(text) or text:find(pattern)) then raise(("session: grasp.author: %s: expected %s, got %s"):format(name, what, described(text))) end
 end
 
 -- pose and DOFs of the hand at the pregrasp, and those of an arm that carries it
@@ -97,6 +103,9 @@ return {
                  {name = "tug", type = "table", optional = true, text = "result of a tug test: {force = in N, held = number of directions}"}},
    run = function(session, args)
      check("grasp.author", args)
+     check_text("name", args.name, "%c", "UTF-8 without control characters")
+     check_text("name", args.name, "^%s*$", "a name")
+     check_text("notes", args.notes, "%z", "UTF-8 without zero bytes")
      local grasp, grasps = new_grasp(session, args), authored(session)
      grasps[place_of(grasps, args.name)] = grasp
      return grasp

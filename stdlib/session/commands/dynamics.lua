@@ -12,7 +12,11 @@ local function run(session, args)
   session.world:run(args.seconds)
 end
 
-local function has_recording(session) return session.recording ~= nil and #session.recording.times > 0, "no run was recorded" end
+-- a run of the open world
+local function has_recording(session)
+  local recording = session.recording
+  return recording ~= nil and recording.world == session.world and #recording.times > 0, "no run was recorded"
+end
 
 return {
   {name = "dynamics.run", label = "Run…", menu = "Dynamics", section = 1, enabled = conditions.world, long = true,

@@ -53,7 +53,7 @@ return {
          function(grasp, options, weight)
            options.loads = options.loads or {{0, 0, 0, 0, 0, 0}, weight}
            return grasp:optimal_preload(options)
-         end),
+         end, true),
   reader("Grasp/More Analyses", "resistible_wrenches", "Resistible Wrenches…",
          {{name = "axes", type = "table", optional = true, text = "two of fx, fy, fz, tx, ty, tz"},
           {name = "count", type = "integer", min = 3, max = 3600, default = 72, text = "directions"}, max_force, torques},

@@ -1,6 +1,7 @@
 --- Authors grasps: frames, pregrasp, closing phases, a tug test, name, confidence and notes; the list of authored grasps is saved in any format.
 local edit = require "clench.view.edit"
 local frames = require "clench.view.frames"
+local phases = require "clench.session.phases"
 local replay = require "clench.view.replay"
 local stereo = require "clench.view.stereo"
 local units = require "clench.view.units"
@@ -139,9 +140,9 @@ end
 
 local function draw_notes(view, ui, state)
   heading(ui, "Name and notes")
-  ui:width(-90)
+  ui:width(-90 * view.scale)
   state.name = ui:text_input("name##author", state.name)
-  ui:width(-90)
+  ui:width(-90 * view.scale)
   local value, changed = ui:slider("confidence", state.confidence, {min = 0, max = 1, format = "%.2f"})
   if changed then state.confidence = math.max(0, math.min(1, value)) end
   state.notes = ui:text_input("##notes", state.notes, {lines = 3, hint = "notes"})
@@ -151,12 +152,24 @@ local function draw_notes(view, ui, state)
   ui:tooltip "Adds the present grasp to the list below; one of the same name is replaced."
 end
 
+-- the phases of a grasp; none if they are damaged, which is reported
+local function phases_of(view, grasp)
+  local ok, list = pcall(function()
+    local list = clench.json.decode(grasp.labels.phases or "[]")
+    phases.check(("grasp '%s'"):format(grasp.labels.name), list)
+    return list
+  end)
+  if ok then return list end
+  view:fail(list)
+  return {}
+end
+
 -- shows an authored grasp, and fills the fields with its texts
 local function take(view, state, grasp)
   view:run("grasp.apply", {grasp = grasp})
   local labels = grasp.labels
   state.name, state.notes, state.confidence, state.pregrasp = labels.name or "", labels.notes or "", grasp.info.confidence or 1, grasp.pregrasp
-  state.phases = labels.phases and clench.json.decode(labels.phases) or {}
+  state.phases = phases_of(view, grasp)
 end
 
 local function draw_list(view, ui, state)

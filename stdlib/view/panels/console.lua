@@ -1,4 +1,4 @@
---- The console: an input line of Lua, and the output of it and of commands. `session`, `world`, `hand`, `object` and `view` are defined.
+--- The console: an input line of Lua, and the output of it and of commands; Up and Down recall lines. `session`, `world`, `hand`, `object` and `view` are defined.
 local function environment(view)
   local session = view.session
   return setmetatable({}, {__index = function(_, name)
@@ -11,13 +11,26 @@ local function environment(view)
   end, __newindex = function(_, name, value) view.globals[name] = value end})
 end
 
+-- calls a function whose output appears in the console: returns what pcall returns, in a table
+local function captured(view, f)
+  local before = print
+  print = function(...)
+    local texts = table.pack(...)
+    for i = 1, texts.n do texts[i] = tostring(texts[i]) end
+    view:print(table.concat(texts, "\t"))
+  end
+  local results = table.pack(pcall(f))
+  print = before
+  return results
+end
+
 local function run(view, line)
   view:print("> " .. line, "input")
   local env = environment(view)
   local f, message = load("return " .. line, "=console", "t", env)
   if not f then f, message = load(line, "=console", "t", env) end
   if not f then return view:print(message, "error") end
-  local results = table.pack(pcall(f))
+  local results = captured(view, f)
   if not results[1] then return view:print(tostring(results[2]), "error") end
   local texts = {}
   for i = 2, results.n do texts[#texts + 1] = tostring(results[i]) end
@@ -25,7 +38,54 @@ local function run(view, line)
   view:changed()
 end
 
-local colors = {error = {0.84, 0.37, 0}, input = {0.4, 0.45, 0.5}, lua = {0, 0.45, 0.7}}
+-- by the kind of a line, on a light and on a dark background
+local light = {error = {0.84, 0.37, 0}, input = {0.4, 0.45, 0.5}, lua = {0, 0.45, 0.7}}
+local dark = {error = {0.9, 0.5, 0.2}, input = {0.6, 0.65, 0.7}, lua = {0.34, 0.71, 0.91}}
+
+local up, down = 265, 264  -- codes of keys
+
+-- lines that were entered, and the number of the one that is shown; after the last one, the line that is being typed
+local function history_of(view)
+  view.console_history = view.console_history or {lines = {}, at = 1, version = 0}
+  return view.console_history
+end
+
+local function remember(history, line)
+  if history.lines[#history.lines] ~= line then history.lines[#history.lines + 1] = line end
+  history.at = #history.lines + 1
+end
+
+-- the keys Up and Down recall lines
+local function recall(view, ui, history)
+  for _, press in ipairs(ui.pressed) do
+    local by = press.key == up and -1 or press.key == down and 1 or 0
+    local at = math.max(1, math.min(#history.lines + 1, history.at + by))
+    if at ~= history.at then
+      if history.at > #history.lines then history.typed = view.console_text end
+      history.at, view.console_text = at, history.lines[at] or history.typed or ""
+      history.version, history.focus = history.version + 1, true  -- a field that is being typed in takes no other text
+      view.needs_frame = true
+    end
+  end
+end
+
+local function draw_input(view, ui)
+  local history = history_of(view)
+  local text, _, entered
+  ui:id("line " .. history.version, function(ui)
+    ui:width(-1)
+    text, _, entered = ui:text_input("##console", view.console_text, {hint = "Lua", on_enter = true, focus = history.focus})
+  end)
+  history.focus, view.console_text = false, text
+  if entered and text ~= "" then
+    view.console_text = ""
+    remember(history, text)
+    run(view, text)
+    history.focus = true  -- Enter ends the input
+  elseif ui:active() then
+    recall(view, ui, history)
+  end
+end
 
 local hint = [[
 Each command appears here as Lua. Type Lua below, for example:
@@ -33,19 +93,13 @@ Each command appears here as Lua. Type Lua below, for example:
 session, world, hand, object and view are defined. Ctrl+P finds a command by a few letters, ? lists the keys.]]
 
 local function draw(ui, view)
+  local colors = view.dark and dark or light
   ui:child("lines", {height = -ui.line_height}, function(ui)
     if #view.lines == 0 then ui:text(hint, {wrap = true, color = {0.5, 0.5, 0.5}}) end
     for i = math.max(1, #view.lines - 200), #view.lines do ui:text(view.lines[i].text, {wrap = true, color = colors[view.lines[i].kind]}) end
     if view.scroll_console then ui:scroll_to_end() view.scroll_console = false end
   end)
-  ui:width(-1)
-  local text, _, entered = ui:text_input("##console", view.console_text, {hint = "Lua", on_enter = true})
-  view.console_text = text
-  if entered and text ~= "" then
-    view.console_text = ""
-    run(view, text)
-    ui:focus()
-  end
+  draw_input(view, ui)
 end
 
 return {name = "Console", place = "bottom", draw = draw}

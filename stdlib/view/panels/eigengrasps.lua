@@ -24,7 +24,7 @@ local function draw_sliders(ui, view, hand)
   for i = 1, eigengrasps.count do
     local low, high = table.unpack(eigengrasps.limits[i])
     ui:disabled(fixed[i] == true, function(ui)
-      ui:width(-104)
+      ui:width(-104 * view.scale)
       local value, changed, finished = ui:slider(("EG %d##eigengrasp"):format(i), amplitudes[i], {min = low, max = high, format = "%.3f"})
       if changed then
         local goal = {table.unpack(amplitudes)}

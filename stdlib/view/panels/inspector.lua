@@ -13,8 +13,8 @@ local function draw_pose(ui, view, thing)
   local changed, finished = false, false
   for i, axis in ipairs {"x", "y", "z", "roll", "pitch", "yaw"} do
     local factor, name, format = units.of(view, i <= 3 and "m" or "rad")
-    ui:width(-90)
-    local value, is_changed, is_finished = ui:drag(("%s [%s]"):format(axis, name), units.shown(values[i]) * factor, {speed = factor * (i <= 3 and 1e-3 or 5e-3), format = format})
+    ui:width(-90 * view.scale)
+    local value, is_changed, is_finished = ui:drag(("%s [%s]"):format(axis, name), units.field(values[i] * factor, format), {speed = factor * (i <= 3 and 1e-3 or 5e-3), format = format})
     if is_changed then values[i], changed = value / factor, true end
     finished = finished or is_finished
   end
@@ -40,7 +40,7 @@ local function draw_dofs(ui, view, robot)
   local dofs, limits, names = robot.dofs, robot.dof_limits, robot.dof_names
   for i = 1, #dofs do
     local factor, _, format = units.of(view, unit_of(robot, i))
-    ui:width(-90)
+    ui:width(-90 * view.scale)
     local value, changed, finished = ui:slider(names[i] .. "##dof" .. i, dofs[i] * factor,
                                                {min = limits[i][1] * factor, max = limits[i][2] * factor, format = format})
     if changed then

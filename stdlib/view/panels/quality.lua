@@ -1,4 +1,5 @@
 --- Measures of the current grasp that the user has chosen, and its contacts with their forces; both are updated when something moves.
+local curves = require "clench.view.curves"
 local replay = require "clench.view.replay"
 local units = require "clench.view.units"
 local gray = {0.5, 0.5, 0.5}
@@ -37,7 +38,7 @@ local function draw_choice(view, ui)
     by_name[measure.name] = measure
     if not index_of(view.measures, measure.name) then names[#names + 1] = measure.name end
   end
-  ui:width(-50)
+  ui:width(-50 * view.scale)
   local chosen, changed = ui:combo("more", 1, names)
   if changed and chosen > 1 then
     view.measures[#view.measures + 1] = names[chosen]
@@ -76,7 +77,8 @@ local function draw_contacts(view, ui, contacts)
   if #contacts == 0 then return end
   local known = false  -- are there forces?
   for _, contact in ipairs(contacts) do known = known or contact.force ~= nil and contact.force:norm() > 0 end
-  ui:table("contacts", {"link", "fx", "fy", "fz [N]"}, {}, function(ui)
+  -- columns are as wide as their texts when a table appears
+  ui:table(known and "contacts with forces" or "contacts", {"link", "fx", "fy", "fz [N]"}, {}, function(ui)
     for i, contact in ipairs(contacts) do
       local force = contact.force
       ui:next_column()
@@ -102,7 +104,10 @@ end
 local function draw(ui, view)
   local session = view.session
   view.measures, view.known_measures = view.measures or {"epsilon", "volume"}, view.known_measures or clench.measures()
-  if view.quality_stamp ~= view.stamp then view.quality, view.quality_stamp = refresh(view), view.stamp end
+  if view.quality_stamp ~= view.stamp then
+    view.quality, view.quality_stamp = refresh(view), view.stamp
+    curves.sample(view)
+  end
   local quality = view.quality
   if not quality then return ui:text("A hand and an object are needed.", {color = gray, wrap = true}) end
   ui:text(("%s on %s"):format(session.hand.name, session.object.name))

@@ -55,6 +55,24 @@ local function draw_slider(view, ui, recording)
   replay.show_time(view, time)
 end
 
+-- simulated seconds per second of the clock; nil in the first second
+local function speed_of(playing)
+  local passed = clench.loop.time() - playing.began
+  return passed > 1 and playing.steps * playing.step / passed or nil
+end
+
+-- the text without recorded states
+local function empty_text(session)
+  local playing = session.playing
+  if playing then
+    local speed = speed_of(playing)
+    return ("recording, %.3f s%s"):format(session.world.time, speed and speed < 0.9 * playing.speed and (", at %.2g of real time"):format(speed) or "")
+  end
+  local last = session.recording
+  if last and last.world == session.world and last.times[1] then return "The last run was too short to be recorded: states are stored 30 times per simulated second." end
+  return "Runs of the dynamics are recorded, and can be replayed here."
+end
+
 local function draw(ui, view)
   local session = view.session
   if not session.world then return ui:text("No world is open.", {color = gray}) end
@@ -68,9 +86,7 @@ local function draw(ui, view)
   command(view, ui, "Save Film…", "dynamics.save_film", "Saves the recorded run as a page, an image sequence or a film")
   ui:spacing()
   local present = ("%.3f s"):format(session.world.time)
-  if count == 0 then
-    return ui:text(session.playing and "recording, " .. present or "Runs of the dynamics are recorded, and can be replayed here.", {color = gray})
-  end
+  if count == 0 then return ui:text(empty_text(session), {color = gray}) end
   draw_slider(view, ui, recording)
   local state = view.replay
   ui:text(("%s   %d states from %.3f to %.3f s   present: %s"):format(state and ("state %d of %d, at %.3f s"):format(state.index, count, recording.times[state.index]) or "present",

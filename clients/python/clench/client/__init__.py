@@ -1,4 +1,4 @@
-"""Commands a Clench server (`clench serve`) from Python, with the names of its Lua API.
+"""Client of a Clench server (`clench serve`), with the names of the Lua API.
 
     import clench.client
     with clench.client.connect() as c:
@@ -6,7 +6,7 @@
         hand.autograsp()
         print(hand.dofs, hand.quality())
 
-`connect_async` returns a client whose calls are awaited. Only the standard library is needed.
+`connect_async` returns a client whose calls are awaited. The package needs only the standard library.
 """
 from .asynchronous import AsyncClient, AsyncJob, connect_async
 from .errors import (ClenchError, ConnectionLost, Failed, InternalError, InvalidParams, InvalidRequest,

@@ -1,4 +1,4 @@
-"""Where a server listens, and its token."""
+"""Addresses and tokens of servers."""
 import os
 from urllib.parse import parse_qs, urlsplit
 
@@ -16,7 +16,7 @@ def _stored_token(name):
 
 
 class Address:
-    """Of a TCP server (`host`, `port`) or a Unix socket (`path`)."""
+    """Address of a TCP server (`host`, `port`) or a Unix socket (`path`), and the token of the server."""
 
     def __init__(self, url=None, host=None, port=None, path=None, token=None):
         if url is not None:

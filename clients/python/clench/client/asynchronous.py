@@ -1,16 +1,17 @@
-"""A client whose calls are awaited. Several may be under way at once."""
+"""A client whose calls are awaited, several at a time."""
 import asyncio
 
 from . import protocol
 from .address import Address
-from .entities import Group, World, arguments, plain
+from .common import CommonClient, CommonJob
+from .entities import World, plain
 from .errors import ClenchError, ConnectionLost, error_of
 
 MAX_LINE = 1 << 28  # [bytes]
 
 
-class AsyncClient:
-    """As Client: fields and calls are awaited."""
+class AsyncClient(CommonClient):
+    """As Client; fields and calls are awaited."""
 
     is_asynchronous = True
 
@@ -34,12 +35,7 @@ class AsyncClient:
         try:
             await self._writer.wait_closed()
         except OSError:
-            pass  # the connection was lost before
-
-    def __getattr__(self, name):
-        if name.startswith("_") or not any(method.startswith(name + ".") for method in self.methods):
-            raise AttributeError(f"a client has no {name}, nor has its server methods of that group")
-        return Group(self, name)
+            pass  # the connection is already lost
 
     def _end(self, problem):
         self._problem = self._problem or problem
@@ -89,25 +85,15 @@ class AsyncClient:
             self._waiting.pop(number, None)
         return protocol.result_of(message)
 
-    def call_by_name(self, method, args, kwargs):
-        return self.call(method, **arguments(method, self.methods[method], args, kwargs))
-
-    async def then(self, value, change):
-        return change(await value)
-
-    async def subscribe(self, event):
-        """Notifications of an event from now on; returns a number for `unsubscribe`."""
-        return await self.call("subscribe", event=event)
-
-    async def subscribe_state(self, rate):
-        """Notifications with the latest state, at most `rate` per second."""
-        return await self.call("subscribe_state", rate=rate)
+    async def then(self, result, change):
+        """`change` of the result of a call."""
+        return change(await result)
 
     async def next_notification(self):
         """(method, params) of the next notification."""
         message = await self._notifications.get()
         if message is None:
-            self._notifications.put_nowait(None)  # for others that wait
+            self._notifications.put_nowait(None)  # for other waiting coroutines
             raise self._problem
         return message["method"], message.get("params")
 
@@ -116,27 +102,12 @@ class AsyncClient:
         return AsyncJob(self, (await self.call("plan.start", planner=planner, options=options))["job"])
 
 
-class AsyncJob:
-    """A search in the background."""
-
-    def __init__(self, client, number):
-        self._client, self.number = client, number
-
-    async def state(self):
-        return await self._client.call("job.state", job=self.number)
-
-    async def stop(self):
-        await self._client.call("job.stop", job=self.number)
-
-    async def pause(self):
-        await self._client.call("job.pause", job=self.number)
-
-    async def resume(self):
-        await self._client.call("job.resume", job=self.number)
+class AsyncJob(CommonJob):
+    """A search in the background; its methods are awaited."""
 
     async def result(self):
-        """Waits until the search is over, and returns its result."""
-        while (await self.state())["state"] not in ("done", "failed", "stopped"):
+        """Waits until the search has ended, and returns its result."""
+        while (await self.state())["state"] not in self.ENDED:
             await asyncio.sleep(0.05)
         return await self._client.call("job.result", job=self.number)
 

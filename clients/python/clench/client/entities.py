@@ -3,15 +3,15 @@
 A field is read from the server whenever it is used. Methods are those of the server: `hand.autograsp(speed=1)` is
 `grasp.autograsp` with `hand`. With an asynchronous client, fields and calls are awaited.
 """
-# fields that commands set: by the command, and its parameter
+# fields that can be set: the command, its parameter for the address, and that for the value
 _setters = {"dofs": ("grasp.dofs", "hand", "dofs"), "pose": ("body.move", "body", "pose"),
             "mass": ("body.mass", "body", "mass"), "material": ("body.material", "body", "material")}
-# these are fields, although there is a command of that name
+# names of fields, even if there is a command of the same name
 _fields = set(_setters) | {"contacts"}
 
 
 def arguments(method, parameters, args, kwargs):
-    """Arguments by name, of positional ones and keywords."""
+    """Positional and keyword arguments of a method, by name. None counts as not given."""
     names = [parameter["name"] for parameter in parameters]
     if len(args) > len(names):
         raise TypeError(f"{method} takes at most {len(names)} arguments ({', '.join(names)}), got {len(args)}")
@@ -24,7 +24,7 @@ def arguments(method, parameters, args, kwargs):
 
 
 def plain(value):
-    """Bodies and robots as their addresses, and arrays as lists."""
+    """Converts bodies and robots to their addresses, and arrays to lists."""
     if isinstance(value, Entity):
         return value.address
     if isinstance(value, dict):
@@ -48,9 +48,9 @@ class Group:
 
 
 class Entity:
-    """A thing at an address."""
+    """A world, robot or body, named by its address."""
 
-    _groups = ()  # of its methods, each with the parameter that takes the address
+    _groups = ()  # groups of its methods, each with the parameter for the address
 
     def __init__(self, client, address):
         self.__dict__.update(_client=client, address=address)
@@ -74,7 +74,7 @@ class Entity:
 
     def __setattr__(self, name, value):
         if self._client.is_asynchronous:
-            raise AttributeError(f"use: await thing.set({name}=...)")
+            raise AttributeError(f"a field of an asynchronous client is set by: await entity.set({name}=...)")
         self.set(**{name: value})
 
     def __getattr__(self, name):
@@ -129,4 +129,5 @@ class World(Entity):
 
 
 def escaped(name):
+    """A name as a part of an address."""
     return name.replace("/", "\\/")

@@ -1,4 +1,4 @@
-"""Errors of a server, a class per code."""
+"""Errors reported by a server, one class per code."""
 
 
 class ClenchError(Exception):
@@ -12,11 +12,11 @@ class ClenchError(Exception):
 
 
 class ParseError(ClenchError):
-    """The line was no JSON."""
+    """The line was not valid JSON."""
 
 
 class InvalidRequest(ClenchError):
-    """The message was no request."""
+    """The message was not a valid request."""
 
 
 class MethodNotFound(ClenchError):
@@ -32,7 +32,7 @@ class InternalError(ClenchError):
 
 
 class Failed(ClenchError):
-    """The request makes sense, and failed."""
+    """The request was valid, but could not be executed."""
 
 
 class Unauthorized(ClenchError):
@@ -40,11 +40,11 @@ class Unauthorized(ClenchError):
 
 
 class Refused(ClenchError):
-    """Not allowed by this server, or beyond one of its limits."""
+    """The server does not allow the request, or it exceeds one of its limits."""
 
 
 class ConnectionLost(ClenchError):
-    """The server has closed the connection, or it has ended."""
+    """There is no connection: the server has closed it, or cannot be reached."""
 
 
 _classes = {-32700: ParseError, -32600: InvalidRequest, -32601: MethodNotFound, -32602: InvalidParams,
@@ -52,6 +52,6 @@ _classes = {-32700: ParseError, -32600: InvalidRequest, -32601: MethodNotFound, 
 
 
 def error_of(value):
-    """The exception of the `error` of a response."""
+    """The exception for the field `error` of a response."""
     code = value.get("code")
     return _classes.get(code, ClenchError)(value.get("message", "unknown error"), code, value.get("data"))

@@ -1,4 +1,4 @@
-"""JSON-RPC 2.0, one message per line, without any input or output."""
+"""Messages of JSON-RPC 2.0, one per line: conversion to and from bytes."""
 import json
 
 from .errors import ClenchError, error_of
@@ -22,18 +22,19 @@ def decode(line):
     except ValueError:
         message = None
     if not isinstance(message, dict):
-        raise ClenchError(f"the server has sent what is no message: {line[:60]!r}")
+        raise ClenchError(f"the server has sent a line that is not a message: {line[:60]!r}")
     return message
 
 
 def result_of(message):
-    """The result of a response; its error is raised."""
+    """The result of a response. An error is raised as its exception."""
     if "error" in message:
         raise error_of(message["error"])
     return message.get("result")
 
 
 def hello_params(token):
+    """Parameters of the first request, which identifies the client."""
     params = {"client": "python"}
     if token is not None:
         params["token"] = token

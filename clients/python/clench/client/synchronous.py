@@ -5,7 +5,8 @@ from collections import deque
 
 from . import protocol
 from .address import Address
-from .entities import Group, World, arguments, plain
+from .common import CommonClient, CommonJob
+from .entities import World, plain
 from .errors import ConnectionLost, error_of
 
 
@@ -25,7 +26,7 @@ def _open(address, timeout):
         raise ConnectionLost(f"no server at {address}: {problem}") from None
 
 
-class Client:
+class Client(CommonClient):
     """A connection to a server: `world`, `call`, groups of methods such as `grasp`, `plan`, subscriptions."""
 
     is_asynchronous = False
@@ -51,11 +52,6 @@ class Client:
 
     def close(self):
         self._socket.close()
-
-    def __getattr__(self, name):
-        if name.startswith("_") or not any(method.startswith(name + ".") for method in self.methods):
-            raise AttributeError(f"a client has no {name}, nor has its server methods of that group")
-        return Group(self, name)
 
     def _read_line(self, last):
         while True:
@@ -100,21 +96,11 @@ class Client:
                 return protocol.result_of(message)
             elif message.get("id") is None:
                 raise error_of(message.get("error", {}))
-            # else the answer to a call that had timed out
+            # otherwise it is the answer to a call that has timed out
 
-    def call_by_name(self, method, args, kwargs):
-        return self.call(method, **arguments(method, self.methods[method], args, kwargs))
-
-    def then(self, value, change):
-        return change(value)
-
-    def subscribe(self, event):
-        """Notifications of an event from now on; returns a number for `unsubscribe`."""
-        return self.call("subscribe", event=event)
-
-    def subscribe_state(self, rate):
-        """Notifications with the latest state, at most `rate` per second."""
-        return self.call("subscribe_state", rate=rate)
+    def then(self, result, change):
+        """`change` of the result of a call."""
+        return change(result)
 
     def next_notification(self, timeout=None):
         """(method, params) of the next notification."""
@@ -131,39 +117,24 @@ class Client:
         return Job(self, self.call("plan.start", planner=planner, options=options)["job"])
 
 
-class Job:
+class Job(CommonJob):
     """A search in the background."""
 
-    def __init__(self, client, number):
-        self._client, self.number = client, number
-
-    def state(self):
-        return self._client.call("job.state", job=self.number)
-
-    def stop(self):
-        self._client.call("job.stop", job=self.number)
-
-    def pause(self):
-        self._client.call("job.pause", job=self.number)
-
-    def resume(self):
-        self._client.call("job.resume", job=self.number)
-
     def result(self, timeout=None):
-        """Waits until the search is over, and returns its result."""
+        """Waits until the search has ended, and returns its result."""
         last = None if timeout is None else time.monotonic() + timeout
-        while self.state()["state"] not in ("done", "failed", "stopped"):
+        while self.state()["state"] not in self.ENDED:
             if last is not None and time.monotonic() > last:
-                raise TimeoutError(f"job {self.number} is not over yet")
+                raise TimeoutError(f"job {self.number} has not ended yet")
             time.sleep(0.05)
         return self._client.call("job.result", job=self.number)
 
 
 def connect(url=None, *, host=None, port=None, path=None, token=None, timeout=None):
-    """Connects to a server, by default to the one that `clench serve` has started on this machine, whose token it has
-    kept in a file of the user's.
+    """Connects to a server; by default to `clench serve` on this machine, which keeps its token in a file of the user.
 
     url      as `clench serve` prints it, "tcp://127.0.0.1:4765/?token=..."; or host and port, or path
     timeout  for each answer [s]; without one, calls wait as long as the server works
+    raises   ConnectionLost if there is no server, Unauthorized if the token is missing or wrong
     """
     return Client(Address(url, host, port, path, token), timeout)

@@ -6,6 +6,7 @@
 
 #include "clench/base/suggest.h"
 #include "clench/base/watched.h"
+#include "clench/io/mjcf/document/mjcf_attach.h"
 #include "clench/io/mjcf/document/mjcf_names.h"
 #include "clench/io/text/find_file.h"
 
@@ -45,15 +46,33 @@ class MjcfExpander {
   void expand_below(MjcfNode& node, MjcfNode& root);
   void replicate(const MjcfNode& node, MjcfNode& root, std::vector<MjcfNode>& into);
   void attach(const MjcfNode& node, MjcfNode& root, std::vector<MjcfNode>& into);
+  AttachTarget attach_target(const XmlValues& values, const MjcfNode& source);
   MjcfNode* attached_model(const XmlValues& values, MjcfNode& root);
+  MjcfNode& model_of(const XmlElement& asset, const std::string& file);
   void copy_assets(const MjcfNode& from, MjcfNode& root, const std::string& prefix);
   void copy_sections(const MjcfNode& from, MjcfNode& root, const Rename& rename);
+  void attach_sections(const XmlElement& at, const MjcfNode& source, MjcfNames& attached,
+                       const AttachedNames& rename, MjcfNode& root);
+  void append_section(MjcfNode section, MjcfNode& root);
   MjcfNode copy(const MjcfNode& node, const Rename& rename, XmlCopies::Attributes more = {});
   MjcfNode frame(const XmlElement& original, XmlCopies::Attributes attributes);
   void count(const XmlElement& original);
   void count_below(const MjcfNode& node);
   void search(const XmlElement& at, size_t elements);
   MjcfNames& referred(const MjcfNode& root);
+
+  /// Calls visit with each section whose elements may refer to these names.
+  template <class Root, class Visit>
+  void for_referring(const XmlElement& at, Root& root, const MjcfNames& names, Visit visit) {
+    if (!names.overlaps(referred(root))) return;
+    for (const char* section : referring_sections)
+      for (auto& part : root.children) {
+        search(at, 1);
+        if (part.name() != section) continue;
+        search(at, part.children.size());
+        visit(part);
+      }
+  }
 
   MjcfDocument& document_;
   FileCache& cache_;
@@ -170,23 +189,17 @@ void MjcfExpander::replicate(const MjcfNode& node, MjcfNode& root, std::vector<M
   names.add(node.children);
   // elements that refer to replicas are copied after all replicas exist
   MjcfNode referring{node.element, {}};
-  const bool refers_any = names.overlaps(referred(root));
-  for (const char* section : referring_sections)
-    for (MjcfNode& part : root.children) {
-      if (!refers_any) break;
-      search(node.element, 1);
-      if (part.name() != section) continue;
-      search(node.element, part.children.size());
-      MjcfNode found{part.element, {}};
-      std::erase_if(part.children, [&](MjcfNode& element) {
-        check_();
-        if (names.references(element).inside == 0) return false;
-        names.add(element);
-        found.children.push_back(std::move(element));
-        return true;
-      });
-      if (!found.children.empty()) referring.children.push_back(std::move(found));
-    }
+  for_referring(node.element, root, names, [&](MjcfNode& part) {
+    MjcfNode found{part.element, {}};
+    std::erase_if(part.children, [&](MjcfNode& element) {
+      check_();
+      if (names.references(element).inside == 0) return false;
+      names.add(element);
+      found.children.push_back(std::move(element));
+      return true;
+    });
+    if (!found.children.empty()) referring.children.push_back(std::move(found));
+  });
   Pose X;
   for (int i = 0; i < count; ++i) {
     const std::string number = std::to_string(i);
@@ -216,53 +229,48 @@ void MjcfExpander::copy_sections(const MjcfNode& from, MjcfNode& root, const Ren
   for (const MjcfNode& section : from.children) {
     MjcfNode out{section.element, {}};
     for (const MjcfNode& element : section.children) out.children.push_back(copy(element, rename));
-    referred(root).add_referred(out);
-    root.children.push_back(std::move(out));
+    append_section(std::move(out), root);
   }
+}
+
+void MjcfExpander::append_section(MjcfNode section, MjcfNode& root) {
+  referred(root).add_referred(section);
+  root.children.push_back(std::move(section));
 }
 
 // --- attach ---
 
-namespace {
-
-struct Target {
-  const MjcfNode* node = nullptr;
-  std::string child_class;  // inherited by the copy
-};
-
-bool holds_targets(const MjcfNode& node) {
-  const std::string name = node.name();
-  return name == "body" || name == "frame" || name == "replicate";
-}
-
-/// searched  number of elements that were compared
-void find_target(const MjcfNode& at, const std::string& kind, const std::string& name,
-                 const std::string& child_class, Target& found, size_t& searched) {
-  for (const MjcfNode& child : at.children) {
-    if (found.node) return;
-    ++searched;
-    if (child.name() == kind && child.element.attribute("name").value_or("") == name) {
-      found = {&child, child_class};
-      return;
-    }
-    if (holds_targets(child))
-      find_target(child, kind, name, child.element.attribute("childclass").value_or(child_class),
-                  found, searched);
+/// The model of an asset, read when it is first attached.
+MjcfNode& MjcfExpander::model_of(const XmlElement& asset, const std::string& file) {
+  const std::string key = asset.place().text() + ' ' + file;
+  auto& open = document_.open_;
+  const auto refuse_open = [&](const std::filesystem::path& path) {
+    if (std::ranges::find(open, path) != open.end())
+      asset.fail("model: '{}' attaches itself", excerpt(file));
+  };
+  if (const auto found = models_.find(key); found != models_.end()) {
+    refuse_open(model_files_[key]);
+    return found->second;
   }
-}
-
-void add_target_names(const MjcfNode& at, const std::string& kind,
-                      std::vector<std::string>& names) {
-  for (const MjcfNode& child : at.children) {
-    const std::string own = child.element.attribute("name").value_or("");
-    if (child.name() == kind && !own.empty()) names.push_back(own);
-    if (holds_targets(child)) add_target_names(child, kind, names);
+  document_.unused_.attributes(asset, {"name", "file", "content_type"});
+  std::filesystem::path path;
+  try {
+    path = find_file(file, document_.settings(asset).path, cache_.options());
+  } catch (const Error& error) {
+    asset.fail("model: {}", error.what());
   }
+  const auto canonical = std::filesystem::weakly_canonical(path);
+  refuse_open(canonical);
+  MjcfNode model = document_.load_file(path);
+  model_files_[key] = canonical;
+  open.push_back(canonical);
+  MjcfNode& kept = models_.emplace(key, std::move(model)).first->second;
+  expand(kept);
+  open.pop_back();
+  return kept;
 }
 
-}  // namespace
-
-/// The model of an asset, read when first attached; null: this model itself.
+/// The model that an <attach> names; null: this model itself.
 MjcfNode* MjcfExpander::attached_model(const XmlValues& values, MjcfNode& root) {
   if (!values.has("model")) return nullptr;
   const std::string name = values.text("model");
@@ -271,37 +279,14 @@ MjcfNode* MjcfExpander::attached_model(const XmlValues& values, MjcfNode& root) 
     if (section.name() != "asset") continue;
     for (const MjcfNode& asset : section.children) {
       if (asset.name() != "model") continue;
-      const XmlValues of_asset(asset.element);
       search(asset.element, 1);
-      const std::string key = asset.element.place().text() + ' ' + of_asset.text("file");
-      const std::string given = of_asset.text("name", "");
+      const XmlValues of_asset(asset.element);
+      const std::string file = of_asset.text("file"), given = of_asset.text("name", "");
       names.push_back(given);
       if (!given.empty() && given != name) continue;
-      auto found = models_.find(key);
-      auto& open = document_.open_;
-      if (found == models_.end()) {
-        document_.unused_.attributes(asset.element, {"name", "file", "content_type"});
-        const MjcfSettings& own = document_.settings(asset.element);
-        std::filesystem::path path;
-        try {
-          path = find_file(of_asset.text("file"), own.path, cache_.options());
-        } catch (const Error& error) {
-          asset.element.fail("model: {}", error.what());
-        }
-        const auto canonical = std::filesystem::weakly_canonical(path);
-        if (std::ranges::find(open, canonical) != open.end())
-          asset.element.fail("model: '{}' attaches itself", excerpt(of_asset.text("file")));
-        MjcfNode model = document_.load_file(path);
-        model_files_[key] = canonical;
-        open.push_back(canonical);
-        found = models_.emplace(key, std::move(model)).first;
-        expand(found->second);
-        open.pop_back();
-      } else if (std::ranges::find(open, model_files_[key]) != open.end()) {
-        asset.element.fail("model: '{}' attaches itself", excerpt(of_asset.text("file")));
-      }
-      names.back() = found->second.element.attribute("model").value_or("");
-      if (given == name || names.back() == name) return &found->second;
+      MjcfNode& model = model_of(asset.element, file);
+      names.back() = model.element.attribute("model").value_or("");
+      if (given == name || names.back() == name) return &model;
     }
   }
   values.fail("model", "no model {}{}", in_quotes(name), did_you_mean(name, names));
@@ -342,6 +327,48 @@ void MjcfExpander::copy_assets(const MjcfNode& from, MjcfNode& root, const std::
   }
 }
 
+AttachTarget MjcfExpander::attach_target(const XmlValues& values, const MjcfNode& source) {
+  const std::string kind = values.has("body") ? "body" : values.has("frame") ? "frame" : "";
+  if (kind.empty()) return {};
+  const std::string name = values.text(kind.c_str());
+  size_t searched = 0;
+  const AttachTarget target = find_attach_target(source, kind, name, searched);
+  search(values.element(), searched);
+  if (!target.node)
+    values.fail(kind.c_str(), "no {} {}{}", kind, in_quotes(name),
+                did_you_mean(name, attach_target_names(source, kind)));
+  if (std::ranges::find(attaching_, target.node) != attaching_.end())
+    values.element().fail("attach: {} '{}' attaches itself", kind, excerpt(name));
+  return target;
+}
+
+/// Copies the elements of other sections that refer to attached elements only.
+void MjcfExpander::attach_sections(const XmlElement& at, const MjcfNode& source,
+                                   MjcfNames& attached, const AttachedNames& rename,
+                                   MjcfNode& root) {
+  std::vector<MjcfNode> sections;
+  for_referring(at, source, attached, [&](const MjcfNode& part) {
+    MjcfNode out{part.element, {}};
+    for (const MjcfNode& element : part.children) {
+      check_();
+      const auto references = attached.references(element);
+      if (references.inside == 0) continue;
+      if (references.outside > 0) {
+        document_.repairs_.add("attached", element.element.place().of(excerpt(element.name())),
+                               "refers to elements that are not attached; not used");
+        continue;
+      }
+      attached.add(element);
+      XmlCopies::Attributes more;
+      if (rename.of_other_model) more.emplace_back("class", rename.class_name(""));
+      out.children.push_back(copy(element, rename, std::move(more)));
+    }
+    if (!out.children.empty()) sections.push_back(std::move(out));
+  });
+  // at the end, as the source may be this model
+  for (MjcfNode& section : sections) append_section(std::move(section), root);
+}
+
 /// Copies a body, a frame or all contents of a model and adds a prefix to their names. Frames
 /// around a body or frame are omitted; classes are inherited.
 void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<MjcfNode>& into) {
@@ -353,26 +380,11 @@ void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<Mjcf
   document_.unused_.attributes(node.element, {"model", "body", "frame", "prefix"});
   const std::string prefix = values.text("prefix");
   MjcfNode* model = attached_model(values, root);
-  const MjcfNode& source = model ? *model : root;
-  const std::string kind = values.has("body") ? "body" : values.has("frame") ? "frame" : "";
-  if (kind.empty() && !model)
+  if (!model && !values.has("body") && !values.has("frame"))
     node.element.fail("attach: expected an attribute 'model', 'body' or 'frame', got none");
-  Target target;
-  if (!kind.empty()) {
-    const std::string name = values.text(kind.c_str());
-    size_t searched = 0;
-    for (const MjcfNode& section : source.children)
-      if (section.name() == "worldbody") find_target(section, kind, name, "", target, searched);
-    search(node.element, searched);
-    if (!target.node) {
-      std::vector<std::string> others;
-      for (const MjcfNode& section : source.children)
-        if (section.name() == "worldbody") add_target_names(section, kind, others);
-      values.fail(kind.c_str(), "no {} {}{}", kind, in_quotes(name), did_you_mean(name, others));
-    }
-    if (std::ranges::find(attaching_, target.node) != attaching_.end())
-      node.element.fail("attach: {} '{}' attaches itself", kind, excerpt(name));
-  }
+  const MjcfNode& source = model ? *model : root;
+  const AttachTarget target = attach_target(values, source);
+  const AttachedNames rename{prefix, model != nullptr};
   std::vector<MjcfNode> content;
   if (target.node) {
     content.push_back(*target.node);
@@ -381,18 +393,6 @@ void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<Mjcf
       if (section.name() == "worldbody")
         content.insert(content.end(), section.children.begin(), section.children.end());
   }
-  // classes and assets of another model get the prefix, too
-  const auto own_class = [&](const std::string& name) {
-    return model ? prefix + (name.empty() ? "main" : name) : name;
-  };
-  const Rename rename = [&](const MjcfNode&, const std::string& attribute,
-                            const std::string& value) {
-    if (value.empty()) return value;
-    if (attribute == "name" || !referred_kind(attribute).empty()) return prefix + value;
-    const bool of_model = attribute == "class" || attribute == "childclass" ||
-                          attribute == "material" || attribute == "mesh" || attribute == "hfield";
-    return of_model && model ? prefix + value : value;
-  };
   if (!model) {  // its contents may attach other models
     attaching_.push_back(target.node);
     for (MjcfNode& part : content) expand_below(part, root);
@@ -401,7 +401,7 @@ void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<Mjcf
   MjcfNames names;
   names.add(content);
   XmlCopies::Attributes inherited;
-  if (const std::string name = own_class(target.child_class); !name.empty())
+  if (const std::string name = rename.class_name(target.child_class); !name.empty())
     inherited.emplace_back("childclass", name);
   if (target.node) {
     into.push_back(copy(content.front(), rename, inherited));
@@ -411,35 +411,7 @@ void MjcfExpander::attach(const MjcfNode& node, MjcfNode& root, std::vector<Mjcf
     into.push_back(std::move(all));
   }
   if (model) copy_assets(*model, root, prefix);
-  std::vector<MjcfNode> sections;
-  const bool refers_any = names.overlaps(referred(source));
-  for (const char* section : referring_sections)
-    for (const MjcfNode& part : source.children) {
-      if (!refers_any) break;
-      search(node.element, 1);
-      if (part.name() != section) continue;
-      search(node.element, part.children.size());
-      MjcfNode out{part.element, {}};
-      for (const MjcfNode& element : part.children) {
-        check_();
-        const auto references = names.references(element);
-        if (references.inside == 0) continue;
-        if (references.outside > 0) {
-          document_.repairs_.add("attached", element.element.place().of(excerpt(element.name())),
-                                 "refers to elements that are not attached; not used");
-          continue;
-        }
-        names.add(element);
-        XmlCopies::Attributes more;
-        if (model) more.emplace_back("class", own_class(""));
-        out.children.push_back(copy(element, rename, std::move(more)));
-      }
-      if (!out.children.empty()) sections.push_back(std::move(out));
-    }
-  for (MjcfNode& section : sections) {
-    referred(root).add_referred(section);
-    root.children.push_back(std::move(section));
-  }
+  attach_sections(node.element, source, names, rename, root);
   --depth_;
 }
 
