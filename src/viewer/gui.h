@@ -143,8 +143,8 @@ class Gui {
   void id(const std::string& id, Body body);
   void group(Body body);
   /// chosen  number of the tab that is opened now, if any
-  void tabs(const std::string& id, std::span<const std::string> names,
-            std::optional<size_t> chosen, FunctionRef<void(size_t)> body);
+  void tabs(const std::string& id, std::span<const std::string> names, std::optional<size_t> chosen,
+            FunctionRef<void(size_t)> body);
   struct TreeOptions {
     bool open = false, leaf = false, selected = false;
     bool unfold = false;  ///< opened now

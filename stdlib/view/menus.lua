@@ -12,8 +12,6 @@ local with_ending = require "clench.session.with_ending"
 local menus = {}
 
 local order = {"File", "Edit", "Element", "Grasp", "Dynamics", "Jobs"}
-local is_first = {}  -- by name
-for _, name in ipairs(order) do is_first[name] = true end
 
 -- an entry of the view itself, as an item of a menu
 local function item(section, label, name, f)
@@ -80,8 +78,8 @@ local own = {
   File = {{section = 1, draw = draw_recent}, item(5, "Save View…", nil, ask_view), item(5, "Save Session as Script…", nil, ask_script),
           item(1000, "Exit", "exit", function(view) view.wants_exit = true end)},
   Element = {{section = 1, draw = draw_tools}},
-  View = {{section = 1, draw = view_menu}},
-  Help = {{section = 1, draw = help_menu}},
+  View = {{section = 0, draw = view_menu}},
+  Help = {{section = 0, draw = help_menu}},
 }
 
 local function draw_command(view, ui, command)
@@ -117,26 +115,34 @@ local function draw_menu(view, ui, name, draw)
   end)
 end
 
--- the entries of each menu by its name, and the names in the order of the bar: menus of the view are the last ones
-local function bar_of(view)
-  local by_name, names = {}, {table.unpack(order)}
-  for name, items in pairs(own) do by_name[name] = {table.unpack(items)} end
-  for _, node in ipairs(menu_tree.of(view.session)) do
-    local items = by_name[node.name]
-    if not items and not is_first[node.name] then names[#names + 1] = node.name end
-    -- of two items in one section that of a command comes first
-    by_name[node.name] = table.move(items or {}, 1, #(items or {}), #node.items + 1, node.items)
+-- names of the menus in the order of the bar: those of the view are the last ones
+local function names_of(view)
+  local names, known = {table.unpack(order)}, {View = true, Help = true}
+  for _, name in ipairs(order) do known[name] = true end
+  for _, menu in ipairs(view.session:menus()) do
+    local name = menu.name:match "^[^/]+"
+    if name and not known[name] then
+      names[#names + 1], known[name] = name, true
+    end
   end
   names[#names + 1], names[#names + 2] = "View", "Help"
-  return by_name, names
+  return names
+end
+
+-- the entries of a menu: of two in one section that of the view comes last
+local function items_of(view, name)
+  local items = {}
+  for _, node in ipairs(menu_tree.of(view.session)) do
+    if node.name == name then items = node.items end
+  end
+  return table.move(own[name] or {}, 1, #(own[name] or {}), #items + 1, items)
 end
 
 --- Draws the menu bar.
 function menus.draw(view, ui)
-  local by_name, names = bar_of(view)
   ui:menu_bar(function(ui)
-    for _, name in ipairs(names) do
-      if by_name[name] then draw_menu(view, ui, name, function(ui) draw_items(view, ui, by_name[name]) end) end
+    for _, name in ipairs(names_of(view)) do
+      draw_menu(view, ui, name, function(ui) draw_items(view, ui, items_of(view, name)) end)
     end
   end)
 end

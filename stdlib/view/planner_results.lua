@@ -65,7 +65,8 @@ local function draw_report(ui, state)
   end
   if #state.causes > 0 then ui:text("Nothing was found, because", {color = orange}) end
   for _, cause in ipairs(state.causes) do ui:text("- " .. cause, {wrap = true, color = orange}) end
-  if state.report ~= "" then ui:text((state.report:gsub("\nwhy: [^\n]*", "")), {wrap = true, color = gray}) end
+  if state.report == "" then return end
+  ui:collapsing("Counts and Assumptions##report", #state.causes == 0, function(ui) ui:text((state.report:gsub("\nwhy: [^\n]*", "")), {wrap = true, color = gray}) end)
 end
 
 --- Draws the controls of a planner.
