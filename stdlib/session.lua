@@ -15,7 +15,7 @@ function Session:__tostring()
   return ("session of %d commands%s"):format(#self.history.done, self.world and ", " .. tostring(self.world) or ", no world is open")
 end
 
-local groups = {"world", "settings", "file", "edit", "select", "body", "mount", "grasp", "eigengrasps", "grasps", "author", "quality", "forces", "planner", "dynamics", "virtual", "sensors", "misc"}
+local groups = {"world", "settings", "file", "edit", "select", "body", "mount", "grasp", "eigengrasps", "grasps", "author", "quality", "forces", "planner", "online", "dynamics", "virtual", "sensors", "misc"}
 local events = {changed = true, diagnostic = true, progress = true, result = true}
 
 local function command_named(self, name)

@@ -37,6 +37,13 @@ inline const Eigen::Vector3f needle(0.95f, 0.80f, 0.10f);
 /// Forces at contacts.
 inline const Eigen::Vector3f force(0.55f, 0.10f, 0.60f);
 
+/// Net forces and net torques on bodies.
+inline const Eigen::Vector3f net_force(0.84f, 0.10f, 0.45f), net_torque(0.40f, 0.32f, 0.80f);
+
+/// Ghosts of robots.
+inline const Eigen::Vector3f ghost(0.10f, 0.55f, 0.45f);
+inline constexpr float ghost_opacity = 0.32f;
+
 /// Approach directions.
 inline const Eigen::Vector3f approach(0.10f, 0.55f, 0.30f);
 

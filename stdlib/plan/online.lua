@@ -1,11 +1,19 @@
 local class = require "clench.class"
-local on_behalf_of = require "clench.on_behalf_of"
-local new_job = require "clench.plan.job"
 local closing = require "clench.plan.closing"
+local described = require "clench.described"
+local period = require "clench.plan.online_period"
+local raise = require "clench.raise"
 
-local best_states = {size = 20, distance = 0.4}
-local near_object = {behind = 0.03, before = 0.2}  -- range of the search along the approach [m]
-local max_solutions = 10                                    -- solutions that are kept
+local max_solutions = 10  -- solutions that are kept
+local usual_steps = 500
+
+-- the given number of steps, or the usual one
+local function checked_steps(subject, steps)
+  if steps == nil then return usual_steps end
+  local count = type(steps) == "number" and math.tointeger(steps)
+  if not count or count < 0 then raise(("planner:%s: steps: expected an integer >= 0, got %s"):format(subject, described(steps))) end
+  return count
+end
 
 local Online = class "planner"
 
@@ -41,28 +49,47 @@ local function is_new(self, grasp)
   return true
 end
 
+-- adds the grasps of a period
+local function merge(self, found, stats)
+  self.tested = self.tested + stats.tested
+  for why, count in pairs(stats.rejected or {}) do self.rejected[why] = (self.rejected[why] or 0) + count end
+  for _, one in ipairs(found) do
+    if is_new(self, one.grasp) then
+      self.found = self.found + 1
+      closing.note(one.grasp, "online", {energy = one.energy, number = self.found, seed = self.job.seed})
+      self.solutions[#self.solutions + 1] = {grasp = one.grasp, number = self.found}
+    end
+  end
+end
+
 --- Continues the search around the present poses of hand and object; closes from the best states, and keeps grasps in force closure.
 ---@param steps? integer  number of steps, 500 by default
 ---@return grasp[]  all known grasps, the nearest to the hand first
 function Online:search(steps)
-  local job = self.job
+  steps = checked_steps("search", steps)
   self.periods = self.periods + 1
   follow(self)
-  local reach = job.hand.world:distance(job.hand, job.object)
-  local range = math.min(near_object.before, math.max(reach, 0.01)) + near_object.behind
-  local search = job:annealing {energy = self.energy, position = "approach", start = "hand", schedule = "online",
-                                seed = job.seed + self.periods, best = best_states, jumps = {dist = 0.33 * range},
-                                limits = {dist = {-near_object.behind, range - near_object.behind}}}
-  on_behalf_of("planner:search", search.run, search, steps or 500)
-  for _, state in ipairs(search.best) do
-    self.tested = self.tested + 1
-    local grasp = job:close(job.hand, job.object, state, self, 0.03 + range)
-    if grasp and grasp.epsilon > 0 and grasp.collision_free and is_new(self, grasp) then
-      self.found = self.found + 1
-      closing.note(grasp, "online", {energy = state.energy, number = self.found, seed = job.seed})
-      self.solutions[#self.solutions + 1] = {grasp = grasp, number = self.found}
-    end
+  merge(self, period.search(self.job, self.energy, self.periods, steps))
+  return self:grasps()
+end
+
+--- The same in the background, on a copy of the world: `planner:finish(job)` takes the grasps over. Several jobs may run at once.
+---@param steps? integer  number of steps, 500 by default
+---@return job  its snapshot is the state that the search has reached: `pose` of the hand in the world, and `dofs`
+function Online:start(steps)
+  steps = checked_steps("start", steps)
+  self.periods = self.periods + 1
+  return clench.job("clench.plan.online_background", {args = {self.options, self.periods, steps}, name = "plan.online"})
+end
+
+--- Takes over the grasps of a job that has ended.
+---@return grasp[]  all known grasps, the nearest to the hand first
+function Online:finish(job)
+  local result = clench.type(job) == "job" and job:result()
+  if type(result) ~= "table" or type(result.found) ~= "table" or type(result.stats) ~= "table" then
+    raise("planner:finish: expected a job of planner:start, got " .. described(job))
   end
+  merge(self, result.found, result.stats)
   return self:grasps()
 end
 
@@ -74,14 +101,22 @@ function Online:grasps()
   return list
 end
 
---- DOFs of the nearest grasp before it closes; they open in proportion to the distance of the hand, fully from 0.2 m.
----@return number[]?
-function Online:preshape()
+--- The nearest grasp to the present pose of the hand.
+---@return {grasp: grasp, closeness: number, distance: number, angle: number}?  closeness: 1 at 45 degrees or 50 mm to the side; distance [m] and angle [rad] between the poses
+function Online:nearest()
   rank(self)
   local nearest = self.solutions[1]
   if not nearest then return nil end
-  local away = (self.job.given_hand.pose.position - (self.job.given_object.pose * nearest.grasp.pose).position):norm()
-  local part = math.min(1, away / near_object.before)
+  local between = self.job.given_hand.pose:inverse() * self.job.given_object.pose * nearest.grasp.pose
+  return {grasp = nearest.grasp, closeness = nearest.closeness, distance = between.position:norm(), angle = between:angle()}
+end
+
+--- DOFs of the nearest grasp before it closes; they open in proportion to the distance of the hand, fully from 0.2 m.
+---@return number[]?
+function Online:preshape()
+  local nearest = self:nearest()
+  if not nearest then return nil end
+  local part = math.min(1, nearest.distance / period.reach)
   local dofs = {}
   for i, closed in ipairs(nearest.grasp.dofs) do
     dofs[i] = closed + part * (nearest.grasp.pregrasp.dofs[i] - closed)
@@ -96,17 +131,15 @@ end
 ---@option energy? string|energy = "contact"  objective; functions of the script are not allowed
 ---@like clench.plan.anneal  seed, threads, posture, semi_axes, values, targets, fixed, variables, collisions, max_tries,
 ---  contacts, touch, grasp, world, max_effort
----@return table planner  `search(steps)`, `grasps()`, `preshape()`, the DOFs for the further approach, `tested`, `found`
+---@return table planner  `search(steps)`, `grasps()`, `nearest()`, `preshape()`, the DOFs for the further approach, `tested`, `found`, `rejected`; `start(steps)` returns a job that searches in the background, `finish(job)` takes its grasps over
 ---@effect long
 --- > planner = clench.plan.online {hand = hand, object = flask}
 --- > list = planner:search(200)
 --- > planner.tested > 0, #list == #planner:grasps()  --> true, true
+--- > job = planner:start(50)
+--- > job:wait()  --> true
+--- > #planner:finish(job) >= #list  --> true
 return function(options)
-  local job = new_job("plan.online", options, function(read, job)
-    job.energy = read:get "energy"
-    if clench.type(job.energy) == "energy" and not job.energy.any_thread then
-      read:fail("energy: expected an energy of the engine, as the planner moves a copy of the world")
-    end
-  end)
-  return setmetatable({job = job, energy = job:energy_of(job.energy), solutions = {}, periods = 0, tested = 0, found = 0}, Online)
+  local job = period.new(options)
+  return setmetatable({job = job, options = options, energy = job:energy_of(job.energy), solutions = {}, periods = 0, tested = 0, found = 0, rejected = {}}, Online)
 end

@@ -114,9 +114,13 @@ function sensed.pull(session)
   return mirror_of(session, {read = function() return reading end, move = function() end}):pull()
 end
 
--- Has the simulated hand moved since the real one was there? Drags and playbacks count once they have ended.
+--- Raises an error if no real hand is connected.
+function sensed.require_real_hand(session) sensors.reading(session, "hand") end
+
+-- Has the simulated hand moved since the real one was there? Drags and playbacks count once they have ended, unless the on-line planner shapes both hands.
 local function has_moved(session, hand, before)
-  if session.gesture then return false end
+  local shapes = session.online and session.online.shape_real
+  if session.gesture and not shapes then return false end
   for d, value in ipairs(hand.dofs) do
     if value ~= before[d] then return true end
   end

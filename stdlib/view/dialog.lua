@@ -18,6 +18,7 @@ local function run(view, command, state)
     return
   end
   view:report(command, result, args)
+  if command.name == "online.start" then view.hidden["On-line Planner"], view.front.right = nil, "On-line Planner" end
   if is_planner(command) then state.job, state.rank = result, nil else view.dialogs[command.name] = nil end
 end
 
@@ -42,7 +43,7 @@ function dialog.fill(view, command)
   end
   if not asks then return view:run(command.name) end
   local state = fields.new(view, command)
-  if is_planner(command) then state.hand, state.object = view.session.hand.name, view.session.object.name end
+  if is_planner(command) or command.name == "online.start" then state.hand, state.object = view.session.hand.name, view.session.object.name end
   -- in a window the user watches and stops a search: it is limited by time, not by steps
   if is_planner(command) and state.steps then state.steps, state.seconds = 10000000, 60 end
   if is_planner(command) then state.focus = nil end

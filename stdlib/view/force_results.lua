@@ -40,6 +40,9 @@ local function draw_balance(ui, result)
   elseif result.status ~= "optimal" and result.status ~= "stable" then
     draw_certificate(ui, result.certificate)
   end
+  if result.residual and result.residual > 1e-6 then
+    ui:text(("unbalanced: %.3g, %.3g, %.3g N; %.3g, %.3g, %.3g N m"):format(table.unpack(result.unbalanced)), {color = orange, wrap = true})
+  end
   if result.forces and #result.forces > 0 then draw_forces(ui, result.forces) end
   if result.joint_torques and #result.joint_torques > 0 then draw_torques(ui, result.joint_torques) end
 end

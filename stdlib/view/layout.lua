@@ -20,7 +20,7 @@ local min_bar = 1050  -- width of the complete tool bar at scale 1 [pixels]
 local tall_share = 0.72  -- fraction of the height of its column
 local user_panels = {}  -- panels that scripts have added, by name and in order
 
-local own_panels = {"tree", "quality", "inspector", "jobs", "eigengrasps", "wrench_space", "friction", "virtual_contacts", "forces", "tendons", "author", "sensors", "display", "console", "time_line", "history", "gallery", "plots"}
+local own_panels = {"tree", "quality", "inspector", "jobs", "eigengrasps", "wrench_space", "friction", "virtual_contacts", "forces", "tendons", "author", "sensors", "online", "display", "console", "time_line", "history", "gallery", "plots"}
 
 --- The panels of a view: built-in ones, and those of the user.
 function layout.panels()

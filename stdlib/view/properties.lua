@@ -70,13 +70,24 @@ local function draw_mass(view, ui, bodies)
   if value then view:run("body.mass", {mass = math.max(0, value)}) end
 end
 
+-- objects are dynamic, obstacles static; links of robots move with their joints
+local function draw_dynamic(view, ui, bodies)
+  for _, body in ipairs(bodies) do
+    if body.robot then return end
+  end
+  local kind = edit.common(bodies, function(body) return body.kind end)
+  local on, changed = ui:checkbox(kind and "dynamic" or "dynamic (differs)", kind == "object")
+  ui:tooltip "On: an object, which moves while dynamics play and can be grasped. Off: an obstacle, which stays where it is.\nbody.kind = \"object\" or \"obstacle\""
+  if changed then view:run("body.kind", {kind = on and "object" or "obstacle"}) end
+end
+
 --- Draws the properties of the selection.
 function properties.draw(view, ui)
   local selection = view.session.selection
   local bodies = bodies_of(selection)
   local kind = edit.common(bodies, function(body) return body.kind end)
   ui:text(("%s%s"):format(kind or "several kinds", #bodies > 1 and (", %d bodies"):format(#bodies) or ""), {color = gray})
-  if kind == "obstacle" then ui:tooltip "Obstacles do not move while dynamics play." end
+  draw_dynamic(view, ui, bodies)
   draw_material(view, ui, bodies)
   draw_mass(view, ui, bodies)
   draw_transparency(view, ui, bodies)

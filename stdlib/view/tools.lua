@@ -1,5 +1,6 @@
 --- Tools of the picture: effects of clicks and drags on the picture. "Camera" moves the camera, "Select" selects, "Translate" and "Rotate" drag the
 --- selection until it touches something, "Measure" measures distances and angles. The middle and right buttons and the wheel always move the camera.
+local boxes = require "clench.view.boxes"
 local camera = require "clench.view.camera"
 local context = require "clench.view.context"
 local drags = require "clench.view.drags"
@@ -192,6 +193,7 @@ function tools.draw(view, ui)
     draw_highlight(view, ui)
     draw_handles(view, ui, hovered)
     outline.draw(view, ui)
+    boxes.draw(view, ui)
     measure.draw(view, ui)
     draw_axes(view, ui)
     replay.draw(view, ui)

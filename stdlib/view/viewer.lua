@@ -9,6 +9,7 @@ local described = require "clench.described"
 local drop = require "clench.view.drop"
 local echo = require "clench.view.echo"
 local follow = require "clench.view.follow"
+local ghosts = require "clench.view.ghosts"
 local input = require "clench.view.input"
 local layout = require "clench.view.layout"
 local loop_task = require "clench.loop_task"
@@ -21,6 +22,7 @@ local status = require "clench.view.status"
 local stereo = require "clench.view.stereo"
 local tools = require "clench.view.tools"
 local user_files = require "clench.view.user_files"
+local wrenches = require "clench.view.wrenches"
 
 local Viewer = class "view"
 
@@ -113,6 +115,8 @@ local function draw_world(self, ui)
     if world:hash() == shown.hash then shown.stamp = self.stamp else self.shown_forces, shown = nil, nil end
   end
   if shown then options.forces = shown.forces end
+  options.ghosts = ghosts.of(self)
+  options.wrenches = wrenches.of(self)
   for _, pane in ipairs(stereo.panes(self)) do
     local c = pane.camera
     options.eye, options.target, options.up, options.field_of_view, options.orthographic, options.aside = c.eye, c.target, c.up, c.field_of_view, c.orthographic, c.aside
@@ -280,7 +284,7 @@ end
 return function(options)
   local session = options.session
   local view = setmetatable({
-    session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m", angle = "rad"}, edits = {}, front = {}, display = {},
+    session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m", angle = "rad"}, edits = {}, front = {}, display = {}, ghosts = {}, shows_search = true, shows_solution = true,
     panels_visible = true, picture_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, bindings = {}, edges = {}, shares = {}, scale = 1, sizes = {left = splitters.default.left, right = splitters.default.right, bottom = splitters.default.bottom}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
   }, Viewer)
   local size = options.size or options.window and preferences.size()

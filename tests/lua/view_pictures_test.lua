@@ -34,8 +34,8 @@ local tall = {600, 700}
 local pictures = {
   {name = "world", size = tall, panels = {"World", "Inspector", "Grasp Quality", "Display", "Virtual Contacts", "EigenGrasps"}},
   {name = "forces", size = tall, panels = {"Forces", "Wrench Space", "Friction", "Author", "Tendons", "Gallery"}},
-  {name = "runs", size = tall, panels = {"Sensors", "Jobs", "History", "Time Line", "Console", "Plots"}},
-  {name = "dark", size = {400, 260}, dark = true, panels = {"World", "Display"}},
+  {name = "runs", size = tall, panels = {"Sensors", "Jobs", "History", "Time Line", "Console", "Plots", "On-line Planner"}},
+  {name = "dark", size = {360, 220}, dark = true, panels = {"World", "Display"}},
   {name = "anaglyph", size = {240, 180}, stereo = {kind = "anaglyph", eye_distance = 0.02}},
 }
 

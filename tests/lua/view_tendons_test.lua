@@ -23,7 +23,7 @@ end
 local function length_at(angle) return math.sqrt(0.051 ^ 2 + 0.01 ^ 2 - 2 * 0.051 * 0.01 * math.sin(angle)) end
 
 test("length, passive force and moment arm follow the joint", function(t)
-  local routes = require "clench.view.tendon_routes"
+  local routes = require "clench.tendon_routes"
   local hand = load_hand(clench.world())
   for _, angle in ipairs {0, 0.3, 1.2} do
     hand:set_dofs {angle}

@@ -4,6 +4,7 @@
 
 #include "clench/render/figure/reduced.h"
 #include "clench/render/gl/depth_offset.h"
+#include "clench/render/gl/polygon_mode.h"
 #include "clench/render/mesh/pieces.h"
 #include "clench/render/paint/outline.h"
 #include "clench/render/paint/tile.h"
@@ -13,6 +14,11 @@ namespace clench {
 namespace {
 
 constexpr int max_draft_map = 2048;  // [pixels]
+
+GLenum mode_of(DrawStyle style) {
+  if (style == DrawStyle::wireframe) return GL_LINE;
+  return style == DrawStyle::points ? GL_POINT : GL_FILL;
+}
 
 class DraftPainter {
  public:
@@ -35,6 +41,7 @@ class DraftPainter {
   void lay_lines(const Group& group, bool hides) const;
   void give_backdrop(unsigned program, const Tile& tile) const;
   void set_up(const Tile& tile);
+  bool has_faces() const { return options_.style == DrawStyle::faces; }
   bool bare() const { return options_.backdrop != Backdrop::studio; }
 
   const Programs& programs_;
@@ -90,9 +97,10 @@ void DraftPainter::light(unsigned program) const {
 
 void DraftPainter::draw_solids() const {
   glDepthFunc(GL_LEQUAL);
+  const gl::PolygonMode mode(mode_of(options_.style));
   for (const PlacedMesh& placed : scene_.solid) {
     options_.progress.tell(0.6, "drawing");
-    draw(placed, programs_.draft);
+    draw(placed, programs_.draft, !has_faces());
   }
   glDepthFunc(GL_LESS);
 }
@@ -128,6 +136,7 @@ void DraftPainter::draw_marks() const {
 
 // far bodies first, each with its far side before its near one; they receive no shadow
 void DraftPainter::draw_glass() const {
+  const gl::PolygonMode mode(mode_of(options_.style));
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
@@ -145,7 +154,7 @@ void DraftPainter::draw_glass() const {
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   const gl::DepthOffset over_solids(-1);
-  lay_lines(scene_.clear, false);
+  if (has_faces()) lay_lines(scene_.clear, false);
 }
 
 // outlines the group, drawn again, where earlier surfaces do not hide it
@@ -193,7 +202,7 @@ void DraftPainter::paint(const Tile& tile) {
   draw_solids();
   draw_floor(tile);
   draw_behind(tile);
-  lay_lines(scene_.solid, true);
+  if (has_faces()) lay_lines(scene_.solid, true);
   draw_marks();
   draw_glass();
 }

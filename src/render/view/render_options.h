@@ -10,6 +10,9 @@ enum class Quality { paper, draft };
 /// A studio; or only the shadow on the floor, on white or on a transparent backdrop.
 enum class Backdrop { studio, white, transparent };
 
+/// How bodies are drawn: their faces, the edges of their triangles, or their vertices.
+enum class DrawStyle { faces, wireframe, points };
+
 struct RenderOptions {
   static constexpr int min_size = 16, max_size = 8192, max_draft_scale = 4;
   int width = 1280, height = 960;  ///< pixels, min_size..max_size
@@ -21,6 +24,7 @@ struct RenderOptions {
   int draft_scale = 1;
   Quality quality = Quality::paper;
   Backdrop backdrop = Backdrop::studio;
+  DrawStyle style = DrawStyle::faces;  ///< others of drafts only
   double outline = 0;  ///< width of lines around bodies and along their edges, 0..32 [pixels]
   /// height of capital letters [pixels], up to 200; 0: a fraction of the picture's
   double letters = 0;

@@ -7,8 +7,8 @@ local left_out = {hello = true, describe = true, subscribe = true, subscribe_sta
 
 -- commands and methods, in addition to queries, that change neither world, session nor files; searches run on a copy of the world
 local harmless = {}
-for _, name in ipairs {"body.distance", "grasp.quality", "grasp.measures", "grasp.contacts", "grasp.projection", "grasp.forces", "grasp.stability",
-                       "grasp.maximum_wrench", "grasp.preload", "grasp.resistible_wrenches",
+for _, name in ipairs {"body.distance", "body.net_wrench", "grasp.quality", "grasp.measures", "grasp.contacts", "grasp.projection", "grasp.forces", "grasp.stability",
+                       "grasp.maximum_wrench", "grasp.preload", "grasp.resistible_wrenches", "grasp.tendon_design",
                        "plan.start", "job.list", "job.state", "job.result", "job.stop", "job.pause", "job.resume", "job.forget"} do harmless[name] = true end
 
 local function is_offered(server, description)

@@ -1,6 +1,7 @@
 --- Commands of the Element menu: on bodies and robots by address, or on the selection.
 local arguments = require "clench.session.arguments"
 local conditions = require "clench.session.conditions"
+local net_wrench = require "clench.session.net_wrench"
 local placing = require "clench.session.placing"
 local raise = require "clench.raise"
 local script = require "clench.session.script"
@@ -121,6 +122,10 @@ return {
   setter("material", "Material…", {type = "string", text = "name of a material"}),
   setter("transparency", "Transparency…", {type = "number", min = 0, max = 1, text = "0: opaque, 1: invisible"}),
   setter("color", "Color…", {type = "table", text = "red, green and blue, each from 0 to 1"}),
+  setter("kind", "Dynamic or Static…", {type = "string", choices = {"object", "obstacle"}, text = "object: it moves in simulations and can be grasped; obstacle: it stays where it is"}),
+  {name = "body.net_wrench", label = "Unbalanced Wrench…", menu = "Element", section = 4, enabled = conditions.world, reads = true,
+   parameters = {{name = "body", type = "body", in_dialog = arguments.selected(1), text = "address of a body, or of a robot for its base"}},
+   run = function(session, args) return net_wrench.of(arguments.find_body(session, args.body)) end},
   {name = "body.distance", label = "Distance…", menu = "Element", section = 4, shortcut = "v", enabled = conditions.world, reads = true,
    parameters = {{name = "a", type = "body", in_dialog = arguments.selected(1), text = "address of a body or robot"}, {name = "b", type = "body", in_dialog = arguments.selected(2), text = "address of the other body or robot"}},
    run = function(session, args) return session.world:distance(arguments.find(session, args.a), arguments.find(session, args.b)) end},

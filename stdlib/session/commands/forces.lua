@@ -5,6 +5,7 @@ local hand = {name = "hand", type = "robot", optional = true, text = "address of
 local load = {name = "load", type = "table", optional = true, text = "wrench on the object, {fx, fy, fz, tx, ty, tz} [N, N m]; its weight by default"}
 local max_force = {name = "max_force", type = "number", min = 0, unit = "N", optional = true, text = "maximum normal force per contact"}
 local torques = {name = "torques", type = "table", optional = true, text = "constant torques of the motors, one per DOF [N m or N]"}
+local held_torques = {name = "torques", type = "any", optional = true, text = "constant torques of the motors, one per DOF [N m or N]; or springs: compliant DOFs hold by their springs alone"}
 local torque_limits = {name = "torque_limits", type = "boolean", optional = true, text = "true: motor efforts are limited"}
 
 local function weight_of(session)
@@ -31,12 +32,16 @@ end
 
 return {
   reader("Grasp", "forces", "Grasp Force Optimization…",
-         {load, {name = "objective", type = "string", optional = true, text = "min_sum, min_norm, min_max, max_margin or max_margin_sum"}, max_force, torque_limits},
+         {load, {name = "objective", type = "string", optional = true, text = "min_sum, min_norm, min_max, max_margin or max_margin_sum"}, max_force, torque_limits,
+          {name = "total_force", type = "number", min = 0, unit = "N", optional = true, text = "prescribed sum of the normal forces"},
+          {name = "total_torque", type = "number", min = 0, optional = true, text = "prescribed sum of the efforts of all motors, closing [N m or N]"},
+          {name = "unilateral", type = "boolean", optional = true, text = "true: motors do not open"},
+          {name = "balance", type = "string", choices = {"exact", "nearest"}, optional = true, text = "nearest: the least unbalanced wrench, if no forces balance the load"}},
          function(grasp, options, weight)
            options.load = options.load or weight
            return grasp:contact_forces(options)
          end),
-  reader("Grasp", "stability", "Grasp Stability Analysis…", {load, max_force, torques}, function(grasp, options, weight)
+  reader("Grasp", "stability", "Grasp Stability Analysis…", {load, max_force, held_torques}, function(grasp, options, weight)
     options.load = options.load or weight
     return grasp:equilibrium(options)
   end),
@@ -58,4 +63,8 @@ return {
          {{name = "axes", type = "table", optional = true, text = "two of fx, fy, fz, tx, ty, tz"},
           {name = "count", type = "integer", min = 3, max = 3600, default = 72, text = "directions"}, max_force, torques},
          function(grasp, options) return clench.study.resistible_wrenches(grasp, options) end, true),
+  reader("Grasp/More Analyses", "tendon_design", "Tendon Routes…",
+         {{name = "pulls", type = "table", optional = true, text = "forces of spatial tendons by their names, 1 N by default [N]"},
+          {name = "shifts", type = "table", optional = true, text = "points of the tendons that may be shifted, as in clench.study.tendon_design"}, load, max_force},
+         function(grasp, options) return clench.study.tendon_design(grasp, options) end, true),
 }

@@ -47,11 +47,27 @@ local function draw_limits(view, ui, state)
   ui:tooltip "The motors stay within their limits."
 end
 
+-- sums that the optimization prescribes
+local function draw_sums(view, ui, state)
+  ui:width(120)
+  number(view, ui, "sum of forces [N]", state, "total_force", {speed = 0.1, min = 0, max = 1e6, format = "%.3g"})
+  ui:tooltip "Prescribed sum of the normal forces, for Optimize; 0: none."
+  ui:width(120)
+  number(view, ui, "sum of torques", state, "total_torque", {speed = 0.01, min = 0, max = 1e6, format = "%.3g"})
+  ui:tooltip "Prescribed sum of the efforts of all motors, closing [N m or N], for Optimize; 0: none."
+  state.unilateral = ui:checkbox("motors only close", state.unilateral == true)
+  ui:tooltip "No motor may pull in the opening direction, for Optimize."
+  state.nearest = ui:checkbox("nearest balance", state.nearest == true)
+  ui:tooltip "If no forces balance the load, Optimize finds those with the smallest unbalanced wrench."
+end
+
 -- torques that the motors keep, one per DOF: the force of its tendon, if it has one
 local function draw_torques(view, ui, state)
   local hand = view.session.hand
   local on, changed = ui:checkbox("constant torques", state.torques ~= nil)
   ui:tooltip "The motors keep these torques at every load, one per DOF; of a DOF on springs, that of its tendon. Optimal Preload sets them."
+  state.springs = ui:checkbox("springs hold", state.springs == true)
+  ui:tooltip "Stability: motors hold the tendons of compliant DOFs at their present lengths, and their springs press.\ngrasp:equilibrium {torques = \"springs\"}"
   if changed or state.torques and #state.torques ~= #hand.dofs then
     state.torques = on and {} or nil
     for i = 1, on and #hand.dofs or 0 do state.torques[i] = 0 end
@@ -78,14 +94,20 @@ local function loads_of(view, state)
   return {{0, 0, 0, 0, 0, 0}, scaled}
 end
 
+local function optimization(state)
+  local function given(value) return value > 0 and value or nil end
+  return {load = state.wrench, objective = state.objective, torque_limits = state.torque_limits or nil, total_force = given(state.total_force),
+          total_torque = given(state.total_torque), unilateral = state.unilateral or nil, balance = state.nearest and "nearest" or nil}
+end
+
 local function draw_questions(view, ui, state)
   local torques = state.torques
-  if ui:button "Optimize" then ask(view, state, "forces", {load = state.wrench, objective = state.objective, torque_limits = state.torque_limits or nil}) end
+  if ui:button "Optimize" then ask(view, state, "forces", optimization(state)) end
   ui:tooltip "Contact forces that hold the load"
   ui:same_line()
   state.objective = choose(ui, "##objective", 140, objectives, state.objective)
   ui:tooltip "Objective that selects one of many sets of forces"
-  if ui:button "Stability" then ask(view, state, "stability", {load = state.wrench, torques = torques}) end
+  if ui:button "Stability" then ask(view, state, "stability", {load = state.wrench, torques = state.springs and "springs" or torques}) end
   ui:tooltip "Can object and joints be in balance?"
   ui:same_line()
   if ui:button "Maximum Wrench" then
@@ -112,7 +134,7 @@ local function draw_questions(view, ui, state)
 end
 
 local function state_of(view)
-  view.forces = view.forces or {objective = "min_sum", max_force = 0, factor = 1.5, x = "fx", y = "fz"}
+  view.forces = view.forces or {objective = "min_sum", max_force = 0, total_force = 0, total_torque = 0, factor = 1.5, x = "fx", y = "fz"}
   return view.forces
 end
 
@@ -122,6 +144,7 @@ local function draw(ui, view)
   local state = state_of(view)
   draw_load(view, ui, state)
   draw_limits(view, ui, state)
+  ui:collapsing("Prescribed Sums", false, function(ui) draw_sums(view, ui, state) end)
   draw_torques(view, ui, state)
   draw_questions(view, ui, state)
   results.draw(view, ui, state)
@@ -130,4 +153,4 @@ end
 -- makes torques the constant ones of the panel
 local function use(view, torques) state_of(view).torques = torques end
 
-return {name = "Forces", place = "right", tab = true, draw = draw, use = use}
+return {name = "Forces", place = "right", tab = true, tall = true, draw = draw, use = use}

@@ -1,5 +1,6 @@
 #include "clench/grasp/force/equilibrium.h"
 #include "clench/grasp/force/preload.h"
+#include "clench/grasp/force/torque_fit.h"
 #include "clench/model/dof.h"
 #include "clench/model/effort_range.h"
 #include "clench/script/bind/grasp/grasps.h"
@@ -215,6 +216,42 @@ static int preload(lua_State* L) {
   return 1;
 }
 
+// base, columns and ranges; each row of `columns` is a parameter
+static TorqueFamily read_family(Table& options) {
+  TorqueFamily family;
+  family.base = options.vector("base");
+  const auto columns = options.rows("columns", static_cast<int>(family.base.size()));
+  const auto ranges = options.rows("ranges", 2);
+  const auto count = static_cast<Eigen::Index>(columns.size());
+  family.columns.resize(family.base.size(), count);
+  for (Eigen::Index i = 0; i < count; ++i) family.columns.col(i) = vector_of(columns[i]);
+  family.low.resize(static_cast<Eigen::Index>(ranges.size()));
+  family.high.resize(family.low.size());
+  for (size_t i = 0; i < ranges.size(); ++i)
+    family.low[i] = ranges[i][0], family.high[i] = ranges[i][1];
+  return family;
+}
+
+static int fit(lua_State* L) {
+  const auto& g = self<GraspHandle>(L);
+  Table options(L, 2);
+  TorqueFitOptions asked;
+  if (options.has("load")) asked.load = options.vector("load", 6);
+  asked.max_force = read_per_contact(options, "max_force");
+  asked.link_weights = options.boolean("link_weights", false);
+  const TorqueFamily family = read_family(options);
+  options.done();
+  const TorqueFit r = fit_torques(world_of(L, g), g.grasp, family, asked);
+  push_record(L, {{"status", preload_status(r.status)}});
+  if (r.normals.size() > 0)
+    set_fields(L, {{"parameters", r.parameters},
+                   {"torques", r.torques},
+                   {"error", r.error},
+                   {"errors", r.errors},
+                   {"normals", r.normals}});
+  return 1;
+}
+
 // from forces along the axes of contact.frame to those of the grasp map
 static Eigen::MatrixXd turns_of(lua_State* L, const GraspHandle& g, const GraspMap& map) {
   return frame_turns(map, g.grasp.points, world_of(L, g).pose(g.grasp.object).matrix());
@@ -305,6 +342,26 @@ loads larger than the true ones leave a margin. `unlimited_efforts` as in contac
 > preload.status, #preload.torques, preload.fraction < 1  --> optimal, 12, true
 > grasp:optimal_preload{loads = {}}  --> error: expected at least one load, got none
 > grasp:optimal_preload{loads = {{1, 2}}}  --> error: 6)"},
+    {"fit_torques", guarded<fit>, R"(
+Torques of the DOFs that depend linearly on parameters, base + sum of parameters[i] * columns[i], and contact forces that balance the load: the
+parameters for which the unbalanced torques of the joints are smallest. Springs and clutches act as in equilibrium. It fits
+designs of tendon-driven hands (Ciocarlie and Allen 2011). `status`: "optimal"; "infeasible": no contact forces balance the load; "inaccurate".
+`parameters`; `torques`: one per DOF; `errors`: unbalanced torques, one per DOF, or per joint of a compliant DOF; `error`: their
+length; `normals`: normal force of each contact [N].
+@param options table  the torques and the load
+@option base number[] [N m or N]  torques with all parameters 0, one per DOF
+@option columns number[][]  per parameter: torques per unit, one per DOF
+@option ranges number[][]  per parameter: minimum and maximum
+@option load? number[] [N and N m]  wrench on the object, {fx, fy, fz, tx, ty, tz}
+@like grasp:contact_forces  max_force, link_weights
+@return table result  `status`, `parameters`, `torques`, `errors`, `error`, `normals`
+@effect reads
+> torques, column = {}, {}
+> for i = 1, #hand.dofs do torques[i], column[i] = 0.1, 0 end
+> column[1] = 1
+> fitted = grasp:fit_torques{base = torques, columns = {column}, ranges = {{-1, 1}}}
+> fitted.status, #fitted.parameters, fitted.error >= 0  --> optimal, 1, true
+> grasp:fit_torques{base = {0}, columns = {}, ranges = {}}  --> error: base: one number per DOF: expected 12, got 1)"},
     {"equilibrium", guarded<balance>, R"(
 Can the hand in its present posture hold the load (as in contact_forces)? Its joints must be in equilibrium too: by motors through their
 couplings, within hand.effort_ranges, by springs, and by the clutches of joints that have broken away. The palm resists any force. `status`: "stable"; "unstable": `unbalanced` is the smallest

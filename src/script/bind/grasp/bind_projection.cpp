@@ -132,7 +132,7 @@ weakest direction; size, samples and camera as in clench.render.
 @param options? table  what is shown, and the picture
 @option ball? boolean = true  true: the largest ball in the space
 @option weakest? boolean = true  true: the weakest wrench
-@like clench.render  size, quality, background, outline, letters, samples, eye, target, up, field_of_view, orthographic, camera
+@like clench.render  size, quality, background, outline, letters, samples, style, eye, target, up, field_of_view, orthographic, camera
 @return picture
 @effect long
 > forces = grasp:wrench_space():project{fixed = {tx = 0, ty = 0, tz = 0}}

@@ -53,6 +53,14 @@ static void read_samples(Table& options, RenderOptions& rendering) {
     fail("{}: samples: expected 1, 4, 9 or 16 of a draft, got {}", options.subject(), samples);
 }
 
+DrawStyle read_style(Table& options) {
+  return options.choice("style",
+                        {{"faces", DrawStyle::faces},
+                         {"wireframe", DrawStyle::wireframe},
+                         {"points", DrawStyle::points}},
+                        DrawStyle::faces);
+}
+
 static RenderOptions read_rendering(Table& options) {
   RenderOptions rendering;
   const auto size =
@@ -71,6 +79,9 @@ static RenderOptions read_rendering(Table& options) {
                                        {"white", Backdrop::white},
                                        {"transparent", Backdrop::transparent}},
                                       Backdrop::studio);
+  rendering.style = read_style(options);
+  if (rendering.style != DrawStyle::faces && rendering.quality != Quality::draft)
+    fail("{}: style: expected 'faces' unless the quality is 'draft'", options.subject());
   rendering.outline = options.number("outline", rendering.outline);
   rendering.letters = options.number("letters", rendering.letters);
   return rendering;
@@ -326,6 +337,14 @@ It needs EGL and OpenGL, but no display. Data of a picture are cached for the ne
 @option forces.force vec3 [N]  on the object, in the world
 @option force_scale? number [m/N, > 0]  length of the arrows, by default so that the longest has 0.6 of the object's largest radius
 @option arrows? boolean = true  false: forces only size the cones
+@option ghosts? table[]  robots that are drawn in addition, transparent
+@option ghosts.robot robot  of any world, such as a clone
+@option ghosts.color? number[]  red, green and blue, each from 0 to 1; green by default
+@option wrenches? table[]  forces and torques as arrows from a point: 5 mm/N and 50 mm/(N m), at most 200 mm long
+@option wrenches.point vec3 [m]  in the world
+@option wrenches.force? vec3 [N] = {0, 0, 0}  in the world
+@option wrenches.torque? vec3 [N m] = {0, 0, 0}  in the world
+@option style? "faces"|"wireframe"|"points" = "faces"  of bodies; others than faces are for drafts
 @return picture
 @effect long
 > clench.render(world, {size = {64, 48}})  --> picture of 64 x 48 pixels
@@ -339,6 +358,13 @@ It needs EGL and OpenGL, but no display. Data of a picture are cached for the ne
 > clench.render(world, {size = {64, 48}, quality = "draft", camera = plain.camera}) == plain  --> true
 > clench.render(world, {camera = plain.camera, up = {0, 1, 0}})  --> error: expected either camera or up, got both
 > clench.render(world, {cones = "force"})  --> error: 'force' needs the option forces
+> copy = world:clone()
+> copy.robots[1].pose = clench.pose {xyz = {0, 0, 0.02}} * copy.robots[1].pose
+> clench.render(world, {size = {64, 48}, quality = "draft", ghosts = {{robot = copy.robots[1]}}}) == plain  --> false
+> clench.render(world, {size = {64, 48}, quality = "draft", wrenches = {{point = flask.pose.position, force = {0, 0, 20}}}}) == plain  --> false
+> clench.render(world, {size = {64, 48}, quality = "draft", style = "wireframe"}) == plain  --> false
+> clench.render(world, {style = "points"})  --> error: style: expected 'faces' unless the quality is 'draft'
+> clench.render(world, {ghosts = {{robot = flask}}})  --> error: ghosts[1]: robot: expected a robot
 > clench.render(world, {forces = {{force = {0, 0, 1}}}})  --> error: forces[1]: contact: expected a contact, got nothing)"},
     {"camera", guarded<choose_camera>, R"(
 The camera that clench.render chooses with the same options; for several states of a world, one camera for all of them, as for a film: it

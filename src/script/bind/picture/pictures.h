@@ -6,6 +6,7 @@
 #include "clench/render/figure/drawing.h"
 #include "clench/render/figure/lettering.h"
 #include "clench/render/figure/picture.h"
+#include "clench/render/view/render_options.h"
 #include "clench/scene/scene.h"
 #include "clench/script/lua/entry.h"
 #include "clench/script/lua/object.h"
@@ -19,6 +20,9 @@ extern const Library film_library, chart_library, plot_library, render_library;
 
 /// Reads size, samples and the camera, which must be all remaining options, and draws.
 Picture draw_scene(lua_State* L, Table& options, Scene scene);
+
+/// Reads how bodies are drawn.
+DrawStyle read_style(Table& options);
 
 /// Logs the reason why pictures have no letters, if so, once per Lua state.
 void warn_without_letters(lua_State* L, const Font& font);

@@ -6,6 +6,9 @@
 #include "clench/base/error.h"
 #include "clench/scene/film_scene.h"
 #include "clench/scene/force_arrows.h"
+#include "clench/scene/ghosts.h"
+#include "clench/scene/palette.h"
+#include "clench/script/bind/handles.h"
 #include "clench/script/bind/world/contacts.h"
 #include "clench/script/lua/check.h"
 #include "clench/script/lua/table.h"
@@ -92,6 +95,43 @@ static void read_ground(lua_State* L, Table& options, SceneOptions& showing) {
   lua_pop(L, 1);
 }
 
+// calls f with each item of a list, which is on top of the stack
+template <class F>
+static void for_items(lua_State* L, Table& options, const char* key, const char* expected, F f) {
+  if (options.push(key) != LUA_TNIL) {
+    if (!lua_istable(L, -1)) fail_expected(options.what(key), expected, -1);
+    const int list = lua_gettop(L), count = static_cast<int>(lua_rawlen(L, list));
+    for (int i = 1; i <= count; ++i) {
+      lua_rawgeti(L, list, i);
+      f(options.what(key).item(i));
+      lua_settop(L, list);
+    }
+  }
+  lua_pop(L, 1);
+}
+
+static void add_ghosts(lua_State* L, Table& options, Scene& scene) {
+  for_items(L, options, "ghosts", "a list of ghosts", [&](const What& what) {
+    Table item(L, lua_gettop(L), what.text());
+    const auto* robot = item.object<RobotHandle>("robot");
+    if (!robot) fail_expected(item.what("robot"), "a robot", lua_gettop(L) + 1);
+    const Eigen::Vector3d color = item.vec3("color", palette::ghost.cast<double>());
+    if (!(color.minCoeff() >= 0 && color.maxCoeff() <= 1))
+      fail("{}: expected three numbers from 0 to 1", item.what("color").text());
+    item.done();
+    add_ghost(*robot->world, robot->id, color.cast<float>(), scene);
+  });
+}
+
+static void add_wrenches(lua_State* L, Table& options, Scene& scene) {
+  for_items(L, options, "wrenches", "a list of wrenches", [&](const What& what) {
+    Table item(L, lua_gettop(L), what.text());
+    const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+    add_wrench({item.vec3("point"), item.vec3("force", zero), item.vec3("torque", zero)}, scene);
+    item.done();
+  });
+}
+
 Scene read_scene(lua_State* L, Table& options, std::span<const World* const> states) {
   SceneOptions showing;
   showing.patches = options.boolean("patches", showing.patches);
@@ -107,6 +147,8 @@ Scene read_scene(lua_State* L, Table& options, std::span<const World* const> sta
   showing.see_through = std::move(given.robots);
   Scene scene = make_film_scene(states, showing);
   add_forces(options, given, scene);
+  add_ghosts(L, options, scene);
+  add_wrenches(L, options, scene);
   return scene;
 }
 

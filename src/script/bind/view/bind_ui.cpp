@@ -85,11 +85,12 @@ int ui_show(lua_State* L) {
     eye.aside = options.number("aside", 0);
   }
   const ScenePane pane = read_pane(options);
+  const RenderOptions rendering{.style = read_style(options)};
   Scene scene = read_scene(L, options, {&world, 1});
   options.done();
   if (!given) eye = gui.frame_all(scene);
   scene.eye = eye;
-  gui.show(scene, eye, {}, pane);
+  gui.show(scene, eye, rendering, pane);
   return 0;
 }
 
@@ -301,7 +302,7 @@ Draws a world behind the panels, as a draft of clench.render.
 @option aside? number = 0  shift of what is seen to the right, as a fraction of the height
 @option part? "all"|"left"|"right" = "all"  the screen or half of it
 @option channels? "all"|"red"|"cyan" = "all"  the colors that are drawn
-@like clench.render  frame, contacts, cones, cone_height, patches, approach, ground, transparent_objects, file_colors, forces, force_scale, arrows
+@like clench.render  frame, contacts, cones, cone_height, patches, approach, ground, transparent_objects, file_colors, forces, force_scale, arrows, ghosts, wrenches, style
 @effect edits
 > ui:frame(0.01, function(ui) ui:show(world) end)
 > ui:show(world)  --> error: expected a call within ui:frame

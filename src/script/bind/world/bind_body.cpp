@@ -1,5 +1,6 @@
 #include "clench/base/text.h"
 #include "clench/model/fingerprint.h"
+#include "clench/model/set_kind.h"
 #include "clench/script/bind/dynamics/dynamics.h"
 #include "clench/script/bind/handles.h"
 #include "clench/script/bind/world/robots.h"
@@ -17,6 +18,14 @@ namespace clench {
 static const char* kind_name(BodyKind kind) {
   static constexpr const char* names[] = {"object", "obstacle", "base", "link", "mount"};
   return names[static_cast<int>(kind)];
+}
+
+static int set_body_kind(lua_State* L) {
+  const auto& body = self<BodyHandle>(L);
+  const std::string kind = check_string(L, 2, "kind");
+  for (const BodyKind known : {BodyKind::object, BodyKind::obstacle})
+    if (kind == kind_name(known)) return set_kind(*body.world, body.id, known), 0;
+  fail("{}: kind: expected object, obstacle, got '{}'", subject(L), excerpt(kind));
 }
 
 static std::optional<RobotHandle> body_robot(const BodyHandle& body) {
@@ -62,9 +71,14 @@ move with the robot.
 > flask.pose.position  --> (0, 0, 1))",
      setter<[](const BodyHandle& x, const Pose& pose) { x.world->set_pose(x.id, pose); }>},
     {"kind", getter<[](const BodyHandle& x) { return kind_name(x->kind); }>, R"(
-"object", "obstacle", "base", "link" or "mount".
+"object", "obstacle", "base", "link" or "mount". An obstacle that is set to "object" moves in simulations, and can be grasped; an object that is set to
+"obstacle" stays where it is. Both come to rest.
 @type string
-> flask.kind  --> object)"},
+> flask.kind  --> object
+> flask.kind = "obstacle"
+> #world.objects, world.obstacles[#world.obstacles] == flask  --> 0, true
+> flask.kind = "link"  --> error: kind: expected object, obstacle, got 'link')",
+     guarded<set_body_kind>},
     {"robot", getter<body_robot>, R"(
 The robot that it is a part of; nil for objects and obstacles.
 @type robot?

@@ -10,12 +10,14 @@
 #include <algorithm>
 
 #include "clench/base/watched.h"
+#include "clench/geometry/query/bounding_boxes.h"
 #include "clench/io/mesh/write_mesh.h"
 #include "clench/script/bind/output.h"
 #include "clench/script/lua/getter.h"
 #include "clench/script/lua/guard.h"
 #include "clench/script/lua/push.h"
 #include "clench/script/lua/table.h"
+#include "clench/script/lua/watching.h"
 
 namespace clench {
 
@@ -78,6 +80,15 @@ static int sample(lua_State* L) {
     lua_rawseti(L, -2, i);
   }
   return 1;
+}
+
+static int boxes_of(lua_State* L) {
+  const Watching watching(L);
+  const auto boxes =
+      bounding_boxes(shape_of(L), check_int(L, 2, "depth"), watching.progress());
+  return push_list_of(L, boxes, [&](const OrientedBox& box) {
+    push_record(L, {{"pose", box.X_MB}, {"size", Eigen::Vector3d(2 * box.half)}});
+  });
 }
 
 static int mesh_save(lua_State* L) {
@@ -157,6 +168,15 @@ Is a point of the body frame inside the solid? No point is inside an open mesh.
 @return boolean
 @effect reads
 > world:add_object(clench.shapes.box {1, 1, 1}).mesh:contains {0.1, 0, 0.4}  --> true)"},
+    {"bounding_boxes", guarded<boxes_of>, R"(
+The boxes of the tree that collision queries descend, in the body frame: one at depth 0, up to eight times as many at each further depth.
+Branches that end earlier are represented by their last boxes.
+@param depth integer [0 to 6]  levels below the box of the complete mesh
+@return {pose: pose, size: vec3}[]  pose: of the center; size: along the axes of the pose [m]
+@effect reads
+> boxes = world:add_object(clench.shapes.box {1, 2, 4}).mesh:bounding_boxes(0)
+> #boxes, math.abs(boxes[1].size.x * boxes[1].size.y * boxes[1].size.z - 8) < 1e-3  --> 1, true
+> flask.mesh:bounding_boxes(7)  --> error: depth: expected 0 to 6, got 7)"},
     {"sample", guarded<sample>, R"(
 Random points on the surface, uniformly distributed by area, with the outward normals of their triangles.
 @param random random  source of the random numbers
