@@ -14,6 +14,7 @@ function Glove:__tostring() return "CyberGlove at " .. self.port.name end
 
 -- the answer to a command, up to its byte 0; nil and the reason if there is none
 local function exchange(self, command)
+  local _ <close> = device.use(self)
   self.port:discard()
   local ok, why = self.port:write(command, self.timeout)
   if not ok then return nil, why end

@@ -23,6 +23,16 @@ function device.fail(subject, port, why, doing)
   raise(("%s: %s is %s"):format(subject, port.name, why), "stale")
 end
 
+--- Waits until no other coroutine exchanges bytes with a device, so that a stop can be sent between the queries of a motion. The result is closed after the
+--- exchange: `local _ <close> = device.use(driver)`.
+---@param driver table  with `timeout`
+function device.use(driver)
+  local last = clench.loop.time() + 2 * driver.timeout + 1  -- a coroutine that was abandoned does not block others
+  while driver.is_used and clench.loop.time() < last do clench.loop.sleep(0.001) end
+  driver.is_used = true
+  return setmetatable({}, {__close = function() driver.is_used = false end})
+end
+
 local max_silent = 10  -- attempts in a row to which a device sends nothing
 
 --- Repeats an exchange until it yields an answer; damaged answers may be numerous on a noisy line, silence is not noise.

@@ -39,6 +39,7 @@ end
 
 -- one request for a record of a bird; nil and the reason if there is none
 local function exchange(self, bird, size)
+  local _ <close> = device.use(self)
   self.port:discard()
   local ok, why = self.port:write(address(bird) .. "B", self.timeout)
   if not ok then return nil, why end

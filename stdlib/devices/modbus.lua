@@ -25,6 +25,7 @@ end
 
 -- one exchange: the answer without checksum; nil and the reason if there is none
 local function exchange(master, request, size)
+  local _ <close> = device.use(master)
   local port = master.port
   port:discard()
   local ok, why = port:write(request, master.timeout)
