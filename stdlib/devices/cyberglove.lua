@@ -14,6 +14,7 @@ function Glove:__tostring() return "CyberGlove at " .. self.port.name end
 
 -- the value in the answer to a command, which ends in a byte 0; nil and the reason if there is none. parse: returns nil if the answer is damaged
 local function exchange(self, command, parse)
+  local _ <close> = device.use(self)
   self.port:discard()
   local ok, why = self.port:write(command, self.timeout)
   if not ok then return nil, why end

@@ -31,6 +31,17 @@ function device.close(driver)
   if driver.owns_port then driver.port:close() end
 end
 
+--- Waits until no other coroutine exchanges bytes with a device, so that a stop can be sent between the queries of a motion. The result is closed after the
+--- exchange: `local _ <close> = device.use(driver)`.
+---@param driver table  with `timeout`
+function device.use(driver)
+  local last = clench.loop.time() + 2 * driver.timeout + 1  -- a coroutine that was abandoned does not block others
+  while driver.is_used and clench.loop.time() < last do clench.loop.sleep(0.001) end
+  driver.is_used = true
+  return setmetatable({}, {__close = function() driver.is_used = false end})
+end
+
+
 --- Raises an error because the port has ended, or because there was no answer.
 ---@param why string  "closed", "unplugged" or "timeout"
 ---@param doing string  for the message: "reading registers"

@@ -33,6 +33,7 @@ local function is_late(self, last) return loop.time() > last + self.timeout end
 
 -- Sends a packet, and collects answers by id until all ids have answered or the timeout has passed.
 local function exchange(self, bytes, ids)
+  local _ <close> = device.use(self)
   self.port:discard()
   local ok, why = self.port:write(bytes, self.timeout)
   if not ok then return nil, why end
@@ -59,6 +60,7 @@ end
 
 -- Sends a fast sync read, and returns the answers of all motors by id, or none.
 local function exchange_fast(self, bytes, ids, size)
+  local _ <close> = device.use(self)
   self.port:discard()
   local ok, why = self.port:write(bytes, self.timeout)
   if not ok then return nil, why end

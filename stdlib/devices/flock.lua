@@ -38,6 +38,7 @@ end
 
 -- the words of a record of a bird; nil and the reason if there is none
 local function request(self, bird)
+  local _ <close> = device.use(self)
   self.port:discard()
   local ok, why = self.port:write(address(bird) .. "B", self.timeout)
   if not ok then return nil, why end

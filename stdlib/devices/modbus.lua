@@ -29,6 +29,7 @@ end
 -- The answer to a request, without checksum; nil and the reason if there is none, or if it belongs to another request.
 -- start: first bytes of a correct answer, after the number of the slave; size: its length; seconds: maximum waiting time
 local function exchange(master, bytes, start, size, seconds)
+  local _ <close> = device.use(master)
   local port = master.port
   port:discard()
   local ok, why = port:write(modbus.frame(bytes), seconds)

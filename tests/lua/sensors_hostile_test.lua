@@ -136,6 +136,40 @@ test("a hand is stopped while another coroutine waits for its motion, and the co
   t.equal(messages[1], ("the real hand at %s has not confirmed that it has stopped"):format(deaf.path))
 end)
 
+test("a gripper and motors are stopped while another coroutine moves or reads them", function(t)
+  local device <close> = simulated.robotiq {delay = 0.005}
+  local gripper <close> = clench.devices.robotiq {port = device.path, move_timeout = 1}
+  gripper:activate()
+  device.full_time = 20
+  local is_over = false
+  loop.spawn(function()
+    pcall(gripper.move, gripper, 0)
+    is_over = true
+  end)
+  with.run_until(t, function() return device.is_moving and device.position > 1 end, "no motion")
+  gripper:stop()
+  t.equal({device.is_moving, device.has_goal}, {false, false})
+  with.run_until(t, function() return is_over end)
+  t.ok(device.position < 128)
+
+  local motors <close> = simulated.dynamixel {ids = {1, 2}, delay = 0.002}
+  local bus <close> = clench.devices.dynamixel {port = motors.path, ids = {1, 2}}
+  local problems, count, is_done = {}, 0, false
+  loop.spawn(function()
+    while not is_done do
+      local ok, problem = pcall(bus.read_positions, bus)
+      problems[#problems + 1], count = not ok and problem or nil, count + 1
+    end
+  end)
+  for i = 1, 5 do
+    bus:set_torque(i % 2 == 0)
+    t.equal(motors.motors[2].memory[64], (i + 1) % 2)
+  end
+  with.run_until(t, function() return count > 1 end, "the motors are not read")
+  is_done = true
+  t.equal(problems, {})
+end)
+
 test("a flood is read without stopping the loop", function(t)
   for_all(t, function(line)
     local bytes = ("G\1\2\xFF\xFF\xFD\0\9\x10=> "):rep(5000)
