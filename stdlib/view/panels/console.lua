@@ -33,12 +33,11 @@ local function draw(ui, view)
     if view.scroll_console then ui:scroll_to_end() view.scroll_console = false end
   end)
   ui:width(-1)
-  local text, _, entered = ui:text_input("##console", view.console_text, {hint = "Lua", on_enter = true})
-  view.console_text = text
+  local text, _, entered = ui:text_input("##console", view.console_text, {hint = "Lua", on_enter = true, focus = view.continues_console})
+  view.console_text, view.continues_console = text, false
   if entered and text ~= "" then
-    view.console_text = ""
+    view.console_text, view.continues_console = "", true
     run(view, text)
-    ui:focus()
   end
 end
 

@@ -20,7 +20,7 @@ end
 local function pictures_of(view, source)
   local key = ("%s %d"):format(source.name, #source.grasps)
   local state = view.gallery
-  if not state or state.key ~= key then state = {key = key, pictures = {}, uploaded = {}} end
+  if not state or state.key ~= key then state = {key = key, pictures = {}} end
   view.gallery = state
   local number = #state.pictures + 1
   if number > math.min(#source.grasps, most) then return state end
@@ -45,9 +45,7 @@ local function draw_grasp(view, ui, source, state, number)
     if ui:button(("cannot be\nput here##%s"):format(label), {width = width, height = height}) then view:fail(picture.problem) end
     ui:tooltip(picture.problem)
   else
-    local is_new = state.uploaded[number] ~= picture
-    state.uploaded[number] = picture
-    if ui:image(label, picture, {width = width, height = height, changed = is_new}) then apply(view, source, number) end
+    if ui:image(label, picture, {width = width, height = height}) then apply(view, source, number) end
     ui:tooltip "Moves the hand to this grasp."
   end
   local name = ("%s of %s"):format(label, source.name)
