@@ -57,7 +57,7 @@ endif()
 
 file(GLOB_RECURSE lua_files RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS lua/*_test.lua)
 if(CLENCH_SANITIZE)  # these draw and close hands for minutes there; C++ tests cover the functions that they call
-  list(FILTER lua_files EXCLUDE REGEX "(approach|displaced|examples|jaws|log|models|measures|motion_study|plan|plan_level|plan_page|plan_pause|plan_resume|plan_starts|plan_touch|real_time_loop|supports|urdf_back|view|view_keys|view_menus|view_page|view_panels|view_pictures)_test")
+  list(FILTER lua_files EXCLUDE REGEX "(approach|displaced|examples|jaws|log|models|measures|motion_study|plan|plan_level|plan_page|plan_pause|plan_resume|plan_starts|plan_touch|real_time_loop|supports|urdf_back|view|view_frames|view_keys|view_menus|view_page|view_panels|view_pictures)_test")
 endif()
 foreach(path ${lua_files})
   lua_test("${path}" clench_app test ${path})

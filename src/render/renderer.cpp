@@ -202,7 +202,7 @@ void Renderer::draw_to(const DrawTarget& target, const Scene& scene, const Eye& 
   if (!loaded) loaded.emplace();
   if (target.framebuffer)
     draft_to(loaded->programs, loaded->drafts, scene, eye, options,
-             {*target.framebuffer, target.x, target.y, target.channels});
+             {*target.framebuffer, target.x, target.y, target.channels, target.covered});
   else
     draw_frame(*loaded, scene, eye, options);
   loaded->drafts.meshes.trim();

@@ -6,6 +6,7 @@
 
 #include "clench/render/figure/lettering.h"
 #include "clench/render/figure/picture.h"
+#include "clench/render/view/pixel_rect.h"
 #include "clench/render/view/render_options.h"
 #include "clench/scene/scene.h"
 
@@ -19,6 +20,8 @@ struct DrawTarget {
   int x = 0, y = 0;
   /// red, green and blue: those that are written; all of them in the renderer's own framebuffer
   std::array<bool, 3> channels = {true, true, true};
+  /// parts of the frame whose pixels are not needed and may become undefined, which saves time
+  std::vector<PixelRect> covered = {};
 };
 
 /// Caches compiled programs, meshes on the graphics card, render targets, the shadow, and the last

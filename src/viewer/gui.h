@@ -48,6 +48,8 @@ struct ScenePane {
   enum class Part { all, left, right };
   Part part = Part::all;
   std::array<bool, 3> channels = {true, true, true};
+  DrawStyle style = DrawStyle::faces;
+  bool operator==(const ScenePane&) const = default;
 };
 
 struct GuiStyle {
@@ -85,20 +87,26 @@ class Gui {
   // --- frames ---
   void set_style(const GuiStyle& style);
   const GuiStyle& style() const;
-  /// Adds input, applied by the next frames: at most one change of a button or key per frame.
+  /// Adds input, applied by the next frames: in its order, and not before clicks and keys ahead of it
+  /// have had their effect.
   void add(InputEvent event);
   /// Collects input of the window system.
   /// returns  true if there is input that no frame has applied yet
   bool poll();
   /// dt  time since the last frame, > 0 [s]
   void begin(double dt);
-  /// Draws the scene behind all panels, as a draft with the size of the pane.
-  /// throws  as Renderer::draw_to
-  void show(const Scene& scene, const Eye& eye, const RenderOptions& options,
-            const ScenePane& pane = {});
+  /// Shows the scene behind all panels, as a draft with the size of the pane. It is drawn at the end
+  /// of the frame, unless all panes of the frame are those of the last picture, which is kept.
+  /// throws  Error if scene, eye or size are invalid
+  void show(Scene scene, const Eye& eye, const ScenePane& pane = {});
   /// Camera that frames the scene.
   Eye frame_all(const Scene& scene);
+  /// Ends the frame, in any case.
+  /// throws  Error if the driver fails to draw the picture
   void end();
+  /// The next frame draws all of its pictures anew, including what panels cover.
+  void redraw();
+  int pictures_drawn() const;  ///< number of panes that have been drawn
   /// Continues the frames of this interface after frames of others.
   void resume();
   /// The pixels of the last frame.
@@ -180,9 +188,8 @@ class Gui {
   void progress(double fraction, const std::string& text, double width);
   void plot(const std::string& label, std::span<const double> values, std::optional<double> low,
             std::optional<double> high, double height);
-  /// key  identifies the picture between frames: its pixels are uploaded again if `changed`
-  bool image(const std::string& key, const Picture& picture, bool changed, double width,
-             double height);
+  /// key  identifies the picture between frames: its pixels are uploaded if they have changed
+  bool image(const std::string& key, const Picture& picture, double width, double height);
   void separator();
   void same_line(double spacing);
   void spacing();

@@ -55,8 +55,11 @@ bool Gui::window(const std::string& name, const WindowOptions& options, Body bod
   const bool visible = ImGui::Begin(imgui_label(name), options.can_close ? &open : nullptr, flags);
   s.windows.push_back(visible_label(name));
   const Closing closing([&] { s.windows.pop_back(), ImGui::End(); });
+  const ImGuiWindow& own = *ImGui::GetCurrentWindow();
+  if (options.background && !options.movable && !own.Hidden)
+    s.opaque.push_back({own.Pos.x, own.Pos.y, own.Size.x, own.Size.y});
   if (visible && options.title) {
-    const ImRect bar = ImGui::GetCurrentWindow()->TitleBarRect();
+    const ImRect bar = own.TitleBarRect();
     s.items.push_back({.label = visible_label(name),
                        .kind = "window",
                        .window = visible_label(name),

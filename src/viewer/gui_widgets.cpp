@@ -110,7 +110,7 @@ Edited<std::string> Gui::input(const std::string& label, const std::string& valu
   ImGuiInputTextFlags flags = 0;
   if (options.on_enter) flags |= ImGuiInputTextFlags_EnterReturnsTrue;
   if (options.password) flags |= ImGuiInputTextFlags_Password;
-  if (options.focus) ImGui::SetKeyboardFocusHere();
+  if (options.focus) focus_next();
   bool changed;
   if (options.lines > 1)
     changed = ImGui::InputTextMultiline(
@@ -157,24 +157,24 @@ void Gui::plot(const std::string& label, std::span<const double> values, std::op
   state_->note(label, "plot");
 }
 
-bool Gui::image(const std::string& key, const Picture& picture, bool changed, double width,
-                double height) {
+bool Gui::image(const std::string& key, const Picture& picture, double width, double height) {
   State::Texture& image = state_->images[key];
   if (image.width != picture.width || image.height != picture.height) {
     image.texture = gl::make_texture(gl::Format::rgba8, picture.width, picture.height);
     image.width = picture.width, image.height = picture.height;
-    changed = true;
-  }
-  if (changed) {
-    glBindTexture(GL_TEXTURE_2D, image.texture);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, picture.width, picture.height, GL_RGB, GL_UNSIGNED_BYTE,
-                    picture.pixels.data());
+    image.pixels.clear();
   }
   image.frame = state_->frame;
   const unsigned name = image.texture;
   ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(name)),
                {pixels(width), pixels(height)});
+  if (ImGui::IsItemVisible() && image.pixels != picture.pixels) {
+    image.pixels = picture.pixels;
+    glBindTexture(GL_TEXTURE_2D, image.texture);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, picture.width, picture.height, GL_RGB, GL_UNSIGNED_BYTE,
+                    picture.pixels.data());
+  }
   state_->note(key, "image");
   return ImGui::IsItemClicked();
 }
@@ -188,7 +188,10 @@ void Gui::tooltip(const std::string& text) {
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
     ImGui::SetTooltip("%s", text.c_str());
 }
-void Gui::focus_next() { ImGui::SetKeyboardFocusHere(); }
+void Gui::focus_next() {
+  ImGui::SetKeyboardFocusHere();
+  state_->focus_asked = state_->frame;
+}
 void Gui::scroll_to_end() { ImGui::SetScrollHereY(1); }
 void Gui::reveal() { ImGui::ScrollToItem(ImGuiScrollFlags_KeepVisibleEdgeY); }
 bool Gui::hovered() const { return ImGui::IsItemHovered(); }

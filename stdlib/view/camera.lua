@@ -13,6 +13,12 @@ function camera.complete(world, size, c)
   return clench.camera(world, {size = {size[1], size[2]}, camera = c})
 end
 
+--- A string that is equal for equal cameras only.
+function camera.key(c)
+  local e, t, u = c.eye, c.target, c.up
+  return ("dddddddddddd"):pack(e.x, e.y, e.z, t.x, t.y, t.z, u.x, u.y, u.z, c.field_of_view or 0, c.orthographic or 0, c.aside or 0)
+end
+
 --- Axes of a camera in the world: right, up, and backwards, from target to eye.
 function camera.axes(c)
   local back = (c.eye - c.target):unit()

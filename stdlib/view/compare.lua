@@ -1,4 +1,5 @@
 --- Two grasps side by side: their pictures by one camera, which turns with that of the view, and their measures in one table.
+local camera = require "clench.view.camera"
 local compare = {}
 
 local width, height = 300, 240  -- size of a picture at scale 1 [pixels]
@@ -42,10 +43,11 @@ local function names_of(list)
   return {list[1].label, list[2].label}
 end
 
--- measures the grasp in a copy of the world, once
+-- measures the grasp in a copy of the world, anew when that has changed
 local function place(view, entry)
-  if entry.world then return end
-  entry.world = view.session.world:clone()
+  if entry.placed_in == view.world_hash then return end
+  entry.placed_in, entry.world, entry.values = view.world_hash, view.session.world:clone(), {}
+  entry.measured, entry.error = nil, nil
   local ok, result = pcall(entry.grasp.apply, entry.grasp, entry.world)
   if ok then entry.measured = result else entry.error = tostring(result) end
 end
@@ -61,27 +63,27 @@ end
 -- a camera that sees both grasps, from the direction of the view's
 local function camera_of(view, list)
   local first = list[1]
-  if first.beside ~= list[2] then
-    first.beside, first.camera = list[2], clench.camera({list[1].world, list[2].world}, {size = {width, height}})
+  if first.beside ~= list[2].world then
+    first.beside, first.camera = list[2].world, clench.camera({list[1].world, list[2].world}, {size = {width, height}})
   end
   local base, seen = first.camera, view.camera
   local distance = 1.2 * (base.eye - base.target):norm()  -- it was chosen for another direction
   return {eye = base.target + (seen.eye - seen.target):unit() * distance, target = base.target, up = seen.up, field_of_view = base.field_of_view}
 end
 
-local function draw_picture(view, ui, entry, number, camera)
+local function draw_picture(view, ui, entry, number, seen)
   ui:group(function(ui)
     if ui:button("Apply##compared" .. number) then view:run("grasp.apply", {grasp = entry.grasp}) end
     ui:tooltip "Moves the hand to this grasp."
     ui:same_line()
     ui:text(entry.label)
     if entry.error then return ui:text(entry.error, {color = orange, wrap = true}) end
-    local is_new = entry.seen ~= view.camera or entry.drawn_with ~= camera.target
-    if is_new then
-      entry.seen, entry.drawn_with = view.camera, camera.target
-      entry.picture = clench.render(entry.world, {size = {width, height}, quality = "draft", camera = camera, transparent_objects = view.display.transparent_objects})
+    local key = ("%s %s %s"):format(entry.placed_in, view.display.transparent_objects, camera.key(seen))
+    if entry.key ~= key then
+      entry.picture = clench.render(entry.world, {size = {width, height}, quality = "draft", camera = seen, transparent_objects = view.display.transparent_objects})
+      entry.key = key
     end
-    ui:image("compared " .. number, entry.picture, {width = width * view.scale, height = height * view.scale, changed = is_new})
+    ui:image("compared " .. number, entry.picture, {width = width * view.scale, height = height * view.scale})
   end)
 end
 
@@ -124,10 +126,10 @@ function compare.draw(view, ui)
   for _, entry in ipairs(list) do place(view, entry) end
   local scale = view.scale
   local open = ui:window("Compare Grasps", {x = 215 * scale, y = 150 * scale, width = (2 * width + 40) * scale, height = (height + 240) * scale, movable = true, resizable = true, can_close = true}, function(ui)
-    local camera = camera_of(view, list)
-    draw_picture(view, ui, list[1], 1, camera)
+    local seen = camera_of(view, list)
+    draw_picture(view, ui, list[1], 1, seen)
     ui:same_line(16)
-    draw_picture(view, ui, list[2], 2, camera)
+    draw_picture(view, ui, list[2], 2, seen)
     if list[1].measured and list[2].measured then draw_table(view, ui, list) end
     ui:text("The pictures turn with the camera of the view; the measures are those of the panel Grasp Quality.", {color = gray, wrap = true})
   end)

@@ -76,9 +76,8 @@ local function draw_section(ui, state)
   if weakest and weakest.load < math.huge then
     ui:text(("%s yields first, at %.3g N."):format(name_of(weakest), weakest.load), {wrap = true})
   end
-  local changed = state.plotted ~= result
-  if changed then state.plotted, state.picture = result, plot_of(result).picture end
-  ui:image("resistible wrenches", state.picture, {width = 248 * view.scale, height = 220 * view.scale, changed = changed})
+  if state.plotted ~= result then state.plotted, state.picture = result, plot_of(result).picture end
+  ui:image("resistible wrenches", state.picture, {width = 248 * view.scale, height = 220 * view.scale})
 end
 
 local good = {optimal = true, stable = true, unlimited = true}

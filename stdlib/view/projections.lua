@@ -64,14 +64,13 @@ local function refresh(view, state, size)
   local from = state.camera or {}
   local ok, result = pcall(state.projection.render, state.projection, {size = {size, size}, quality = "draft", eye = from.eye, target = from.target, up = from.up})
   state.picture, state.error = ok and result or nil, not ok and tostring(result):gsub("^.-%.lua:%d+: ", "") or nil
-  state.seen, state.is_new = state.camera, true
+  state.seen = state.camera
 end
 
 local function draw_picture(view, ui, state, size)
   refresh(view, state, size)
   if not state.picture then return ui:text(state.error, {wrap = true}) end
-  local pressed = ui:image("wrench space" .. state.key, state.picture, {width = size, height = size, changed = state.is_new})
-  state.is_new = false
+  local pressed = ui:image("wrench space" .. state.key, state.picture, {width = size, height = size})
   local mouse = ui.mouse
   state.turns = (pressed or state.turns) and mouse.left.down
   if state.turns and (mouse.dx ~= 0 or mouse.dy ~= 0) then

@@ -95,9 +95,11 @@ function Viewer:open_palette() self.palette = {text = "", index = 1} end
 --- Writes the session as a script.
 function Viewer:save_script(path) clench.files.save_text(path, self.session:script() .. "\n") end
 
--- of another world nothing is kept
+-- of another world nothing is kept; of this one, nothing that a script has changed without a command
 local function follow_world(self)
   local world = self.session.world
+  local hash = world and world:hash()
+  if self.world_hash ~= hash then self.world_hash, self.stamp = hash, self.stamp + 1 end
   if not world or self.shown_world == world then return end
   self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author, self.curves, self.dialogs = world, nil, {}, nil, nil, nil, nil, {}
   self:home()

@@ -50,6 +50,23 @@ local function settle()
   if fault then error(fault, 0) end
 end
 
+-- a frame that keeps pictures must equal one that draws everything, once frames equal each other and no dynamics move the world
+local compared = 0
+local function compare_frames()
+  for _ = 1, 4 do
+    local hash, state = view:hash(), session.world:hash()
+    view:frame()
+    if view:hash() == hash then
+      view.ui:redraw()
+      view:frame()
+      if session.world:hash() ~= state then return end
+      if view:hash() ~= hash then error("a kept picture differs from the one that is drawn anew", 0) end
+      compared = compared + 1
+      return
+    end
+  end
+end
+
 local function items_of(accepts)
   local list = {}
   for _, item in ipairs(view.ui.items) do
@@ -248,6 +265,7 @@ local function run_event(count)
   view.picture_visible = chance(0.2)  -- it takes most of the time of a frame
   f()
   check_history()
+  if view.picture_visible then compare_frames() end
   local took = clench.clock() - began
   if took > longest_event then error(("an event took %.0f s"):format(took), 0) end
 end
@@ -270,4 +288,4 @@ view:close()
 local names = {}
 for name in pairs(counts) do names[#names + 1] = ("%s %d"):format(name, counts[name]) end
 table.sort(names)
-print(("nothing broke; %d steps were undone and repeated; %s"):format(steps, table.concat(names, ", ")))
+print(("nothing broke; %d steps were undone and repeated, %d frames compared; %s"):format(steps, compared, table.concat(names, ", ")))

@@ -1,5 +1,7 @@
 #include <epoxy/gl.h>
 
+#include <algorithm>
+
 #include "clench/render/gl/gl_context.h"
 #include "clench/render/paint/draft_target.h"
 #include "clench/render/paint/tile.h"
@@ -192,6 +194,43 @@ TEST_CASE(
     }
   CHECK(outside == 300 * 220 - 160 * 120);
   CHECK(different == 0);
+}
+
+TEST_CASE("pixels of covered parts are left out, and all others are those of the complete frame") {
+  REQUIRE_PICTURES();
+  const GlContext context;
+  const GlContext::Entered entered(context);
+  const RenderOptions options = draft_of();
+  const FrameTarget window(options.width, options.height);
+  Renderer renderer(Renderer::Context::caller);
+  const auto drawn = [&](const std::vector<PixelRect>& covered) {
+    glBindFramebuffer(GL_FRAMEBUFFER, window.target);
+    glClearColor(1, 0, 0, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    renderer.draw_to({.framebuffer = window.target, .covered = covered}, glass_beside_box(),
+                     frame_eye, options);
+    glBindFramebuffer(GL_FRAMEBUFFER, window.target);
+    Picture all = empty_picture(options);
+    read_tile({0, 0, options.width, options.height}, all);
+    return all;
+  };
+  const Picture complete = drawn({});
+  // the edges of bodies cross those of the covered parts
+  const std::vector<PixelRect> covered = {{0, 0, 80, 70}, {60, 50, 70, 70}, {150, 0, 10, 120}};
+  const Picture part = drawn(covered);
+  int outside = 0, equal = 0, left_out = 0;
+  for (int y = 0; y < options.height; ++y)
+    for (int x = 0; x < options.width; ++x) {
+      const PixelRect here{x, options.height - 1 - y, 1, 1};
+      const bool is_covered =
+          std::ranges::any_of(covered, [&](const PixelRect& r) { return r.contains(here); });
+      const bool same = pixel(part, x, y) == pixel(complete, x, y);
+      outside += !is_covered, equal += !is_covered && same, left_out += is_covered && !same;
+    }
+  CHECK(outside > 7500);
+  CHECK(equal == outside);
+  CHECK(left_out > 1000);
+  CHECK(drawn({}) == complete);
 }
 
 TEST_CASE("frames that cannot be drawn or read are rejected") {

@@ -13,6 +13,15 @@ clench.view.panel {name = "Picture", draw = function(ui)
   if picture == nil then picture = select(2, pcall(clench.render, session.world, {size = {64, 48}, quality = "draft"})) end
 end}
 
+-- frames that take long while a file exists, as on a loaded machine
+clench.view.panel {name = "Slow", place = "left", draw = function()
+  local file = io.open(folder .. "/slow")
+  if not file then return end
+  file:close()
+  local finish = clench.clock() + 0.25
+  repeat until clench.clock() > finish
+end}
+
 clench.loop.every(0.1, function()
   if view.is_closed then return end
   local lines = {}
@@ -21,6 +30,6 @@ clench.loop.every(0.1, function()
   end
   write("items.txt", table.concat(lines, "\n") .. "\n")
   local eye = view.camera.eye
-  write("state.txt", ("hash %s\neye %.4f %.4f %.4f\nframes %d\nmodified %s\npicture %s\n"):format(
-    session.world:hash(), eye.x, eye.y, eye.z, view.frames, tostring(session:is_modified()), tostring(picture)))
+  write("state.txt", ("hash %s\neye %.4f %.4f %.4f\nframes %d\nmodified %s\npicture %s\ndrawn %d\ntyped %s\nlast %s\n"):format(
+    session.world:hash(), eye.x, eye.y, eye.z, view.frames, tostring(session:is_modified()), tostring(picture), view.ui.pictures_drawn, view.console_text, view.lines[#view.lines] and view.lines[#view.lines].text or ""))
 end)

@@ -98,6 +98,29 @@ until_value hash is "$first"
 xdotool key ctrl+shift+z
 until_value hash is "$closed"
 
+# text that is typed while frames are slow arrives completely and in order: after a shortcut in the dialog that it opens, after Enter in the console
+touch "$folder/slow"
+xdotool key ctrl+z
+until_value hash is "$first"
+xdotool key --delay 5 ctrl+p
+xdotool type --delay 5 'auto grasp'
+xdotool key --delay 5 Return
+until_value hash is "$closed"
+click Console
+at=$(awk 'NF == 2 && $2 > 800 {print}' "$folder/items.txt" | tail -1)
+[ -n "$at" ] || fail "the console has no input line"
+xdotool mousemove $at && xdotool click 1
+for line in 'first = 12' 'second = "Text, AND text"'; do xdotool type --delay 5 "$line" && xdotool key Return; done
+xdotool type --delay 5 'second .. first'
+until_value typed is 'second .. first'
+drawn=$(value drawn)
+xdotool type --delay 5 ' .. "!"'
+until_value typed is 'second .. first .. "!"'
+[ "$(value drawn)" = "$drawn" ] || fail "typing drew the picture"
+xdotool key Return
+until_value last is 'Text, AND text12!'
+rm "$folder/slow"
+
 # a crash leaves the unsaved work, which the next start offers
 for _ in $(seq 300); do ls "$XDG_STATE_HOME"/clench/autosave-*.lua >/dev/null 2>&1 && break; sleep 0.1; done
 kill -9 $viewer

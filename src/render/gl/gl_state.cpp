@@ -47,7 +47,7 @@ struct SavedState::Values {
   std::array<std::array<GLuint, textures.size()>, units> bound_textures;
   std::array<GLuint, units> samplers;
   std::array<GLint, packing.size()> packed;
-  GLint unit, viewport[4], depth_func, cull, front, polygon[2];
+  GLint unit, viewport[4], scissor[4], depth_func, cull, front, polygon[2];
   GLint blend[4], equation[2];
   GLuint program, array, draw, read;
   GLboolean colors[4], depth_mask;
@@ -78,6 +78,7 @@ SavedState::SavedState() : values_(std::make_unique<Values>()) {
     glPixelStorei(packing[i], alignment ? 4 : 0);
   }
   glGetIntegerv(GL_VIEWPORT, v.viewport);
+  glGetIntegerv(GL_SCISSOR_BOX, v.scissor);
   glGetIntegerv(GL_POLYGON_MODE, v.polygon);
   glGetDoublev(GL_DEPTH_RANGE, v.depth_range);
   glGetFloatv(GL_COLOR_CLEAR_VALUE, v.clear_color);
@@ -116,6 +117,7 @@ SavedState::~SavedState() {
   glActiveTexture(static_cast<GLenum>(v.unit));
   for (size_t i = 0; i < packing.size(); ++i) glPixelStorei(packing[i], v.packed[i]);
   glViewport(v.viewport[0], v.viewport[1], v.viewport[2], v.viewport[3]);
+  glScissor(v.scissor[0], v.scissor[1], v.scissor[2], v.scissor[3]);
   glPolygonMode(GL_FRONT_AND_BACK, static_cast<GLenum>(v.polygon[0]));
   glDepthRange(v.depth_range[0], v.depth_range[1]);
   glClearColor(v.clear_color[0], v.clear_color[1], v.clear_color[2], v.clear_color[3]);

@@ -2,6 +2,8 @@
 
 #include <epoxy/gl.h>
 
+#include <span>
+
 #include "clench/render/figure/reduced.h"
 #include "clench/render/gl/depth_offset.h"
 #include "clench/render/gl/polygon_mode.h"
@@ -24,8 +26,8 @@ class DraftPainter {
  public:
   DraftPainter(const Programs& programs, DraftKept& kept, const Scene& scene, const Eye& eye,
                const RenderOptions& options);
-  /// draws to the cached target
-  void paint(const Tile& tile);
+  /// draws to the cached target, except for most pixels of covered parts of the picture
+  void paint(const Tile& tile, std::span<const PixelRect> covered = {});
   const Cover& cover() const { return cover_; }
 
  private:
@@ -42,6 +44,9 @@ class DraftPainter {
   void give_backdrop(unsigned program, const Tile& tile) const;
   void set_up(const Tile& tile);
   bool has_faces() const { return options_.style == DrawStyle::faces; }
+  void leave_out(const Tile& tile, std::span<const PixelRect> covered);
+  template <class Draw>
+  void in_parts(Draw draw) const;
   bool bare() const { return options_.backdrop != Backdrop::studio; }
 
   const Programs& programs_;
@@ -50,6 +55,7 @@ class DraftPainter {
   DraftScene scene_;
   Eigen::Matrix4d projection_, clip_;  // origin in the picture, and in the tile
   Cover cover_;
+  std::vector<PixelRect> parts_;  // of the tile, which are drawn
 };
 
 DraftPainter::DraftPainter(const Programs& programs, DraftKept& kept, const Scene& scene,
@@ -110,20 +116,31 @@ void DraftPainter::give_backdrop(unsigned program, const Tile& tile) const {
   gl::set(program, "size", Eigen::Vector2f(options_.width, options_.height));
 }
 
+// draws what fills the tile only in the parts that are drawn
+template <class Draw>
+void DraftPainter::in_parts(Draw draw) const {
+  glEnable(GL_SCISSOR_TEST);
+  for (const PixelRect& part : parts_) {
+    glScissor(part.x, part.y, part.width, part.height);
+    draw();
+  }
+  glDisable(GL_SCISSOR_TEST);
+}
+
 void DraftPainter::draw_floor(const Tile& tile) const {
   if (!scene_.floor) return;
   kept_.shadow.give(programs_.draft_floor);
   give_backdrop(programs_.draft_floor, tile);
   gl::set(programs_.draft_floor, "bare", bare() ? 1.0f : 0.0f);
   const gl::DepthOffset behind_bodies(1);
-  draw({.mesh = &*scene_.floor}, programs_.draft_floor);
+  in_parts([&] { draw({.mesh = &*scene_.floor}, programs_.draft_floor); });
 }
 
 void DraftPainter::draw_behind(const Tile& tile) const {
   if (bare()) return;
   give_backdrop(programs_.draft_behind, tile);
   glDepthFunc(GL_LEQUAL);
-  cover_.draw(programs_.draft_behind);
+  in_parts([&] { cover_.draw(programs_.draft_behind); });
   glDepthFunc(GL_LESS);
 }
 
@@ -196,9 +213,30 @@ void DraftPainter::set_up(const Tile& tile) {
     light(program);
 }
 
-void DraftPainter::paint(const Tile& tile) {
+// the depth of the nearest surface hides bodies, which are not shaded there
+void DraftPainter::leave_out(const Tile& tile, std::span<const PixelRect> covered) {
+  std::vector<PixelRect> left_out;
+  for (const PixelRect& rect : covered) {
+    const PixelRect inner = rect.without(smoothing_reach);
+    if (inner.empty()) continue;
+    left_out.push_back({inner.x - tile.x + tile.border, inner.y - tile.y + tile.border, inner.width,
+                        inner.height});
+  }
+  parts_ = uncovered({0, 0, tile.drawn_width(), tile.drawn_height()}, left_out);
+  glEnable(GL_SCISSOR_TEST);
+  glClearDepth(0);
+  for (const PixelRect& rect : left_out) {
+    glScissor(rect.x, rect.y, rect.width, rect.height);
+    glClear(GL_DEPTH_BUFFER_BIT);
+  }
+  glClearDepth(1);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void DraftPainter::paint(const Tile& tile, std::span<const PixelRect> covered) {
   options_.progress.check();
   set_up(tile);
+  leave_out(tile, covered);
   draw_solids();
   draw_floor(tile);
   draw_behind(tile);
@@ -227,12 +265,12 @@ void draft_to(const Programs& programs, DraftKept& kept, const Scene& scene, con
   DraftPainter drawing(programs, kept, scene, eye, options);
   const std::vector<Tile> tiles = tiles_of(options);
   if (tiles.size() == 1) {
-    drawing.paint(tiles[0]);
+    drawing.paint(tiles[0], destination.covered);
     smooth_to(programs.edges, drawing.cover(), kept.target->colors, options, destination);
   } else {
     const FrameTarget joined(options.width, options.height);
     for (const Tile& tile : tiles) {
-      drawing.paint(tile);
+      drawing.paint(tile, destination.covered);
       copy_tile(tile, kept.target->target, joined.target);
     }
     smooth_to(programs.edges, drawing.cover(), joined.pixels, options, destination);

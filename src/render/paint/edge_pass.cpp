@@ -15,7 +15,13 @@ void smooth_to(unsigned program, const Cover& cover, unsigned colors, const Rend
   gl::set(program, "bare", options.backdrop != Backdrop::studio ? 1.0f : 0.0f);
   const auto& [red, green, blue] = destination.channels;
   glColorMask(red, green, blue, GL_TRUE);
-  cover.draw(program);
+  const PixelRect whole{0, 0, options.width, options.height};
+  glEnable(GL_SCISSOR_TEST);
+  for (const PixelRect& part : uncovered(whole, destination.covered)) {
+    glScissor(destination.x + part.x, destination.y + part.y, part.width, part.height);
+    cover.draw(program);
+  }
+  glDisable(GL_SCISSOR_TEST);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glEnable(GL_DEPTH_TEST);
 }

@@ -6,8 +6,15 @@ namespace clench {
 
 namespace {
 
+// shapes of contact patches are made anew for each scene
+bool same(const ShapePtr& a, const ShapePtr& b) {
+  if (a == b) return true;
+  return a && b && a->hash() == b->hash() && a->mesh().vertices == b->mesh().vertices &&
+         a->mesh().triangles == b->mesh().triangles;
+}
+
 bool same(const DrawMesh& a, const DrawMesh& b) {
-  return a.shape == b.shape && a.X_WM.position == b.X_WM.position &&
+  return same(a.shape, b.shape) && a.X_WM.position == b.X_WM.position &&
          a.X_WM.rotation.coeffs() == b.X_WM.rotation.coeffs() && a.color == b.color &&
          a.opacity == b.opacity && a.background == b.background && a.framed == b.framed &&
          a.hides == b.hides && a.triangle_colors == b.triangle_colors && a.skin == b.skin;

@@ -34,7 +34,7 @@ end
 -- Pictures of the first grasps of a list; false for one that is not made yet. One is made per frame, so that no frame takes long, and kept while the list grows
 -- or changes its order.
 local function pictures_of(view, source)
-  view.gallery = view.gallery or {by_key = {}, uploaded = {}}
+  view.gallery = view.gallery or {by_key = {}}
   local kept, list, has_new = view.gallery.by_key, {}, false
   for i = 1, math.min(#source.grasps, most) do
     local key = key_of(source.grasps[i])
@@ -59,9 +59,6 @@ local function draw_picture(view, ui, source, picture, number, label)
     if ui:button(("cannot be\nput here##%s"):format(label), size) then view:fail(picture.problem) end
     ui:tooltip(picture.problem)
   else
-    local uploaded = view.gallery.uploaded
-    size.changed = uploaded[number] ~= picture
-    uploaded[number] = picture
     if ui:image(label, picture, size) then apply(view, source, number) end
     ui:tooltip "Moves the hand to this grasp."
   end

@@ -47,12 +47,19 @@ int ui_frame(lua_State* L) {
   const BodyOf body(L, 3);
   gui.begin(dt);
   handle.in_frame = true;
-  struct End {
-    Gui& gui;
-    UiHandle& handle;
-    ~End() { handle.in_frame = false, gui.end(); }
-  } end{gui, handle};
-  body();
+  try {
+    body();
+  } catch (...) {
+    handle.in_frame = false;
+    try {
+      gui.end();
+    } catch (const Error&) {
+      // the error of the body is reported
+    }
+    throw;
+  }
+  handle.in_frame = false;
+  gui.end();
   return 0;
 }
 
@@ -67,6 +74,7 @@ ScenePane read_pane(Table& options) {
                                   {"red", Channels{true, false, false}},
                                   {"cyan", Channels{false, true, true}}},
                                  Channels{true, true, true});
+  pane.style = read_style(options);
   return pane;
 }
 
@@ -85,12 +93,11 @@ int ui_show(lua_State* L) {
     eye.aside = options.number("aside", 0);
   }
   const ScenePane pane = read_pane(options);
-  const RenderOptions rendering{.style = read_style(options)};
   Scene scene = read_scene(L, options, {&world, 1});
   options.done();
   if (!given) eye = gui.frame_all(scene);
   scene.eye = eye;
-  gui.show(scene, eye, rendering, pane);
+  gui.show(std::move(scene), eye, pane);
   return 0;
 }
 
@@ -192,6 +199,8 @@ int get_size(lua_State* L) {
   const double size[] = {static_cast<double>(gui.width()), static_cast<double>(gui.height())};
   return push(L, std::span<const double>(size));
 }
+int ui_redraw(lua_State* L) { return open_gui(L).redraw(), 0; }
+int get_pictures_drawn(lua_State* L) { return push(L, open_gui(L).pictures_drawn()); }
 int ui_poll(lua_State* L) { return push(L, open_gui(L).poll()); }
 int ui_read(lua_State* L) { return push_object(L, open_gui(L).read()); }
 int ui_hash(lua_State* L) {
@@ -275,6 +284,11 @@ Has the user asked to close the window?
 Name of the OpenGL renderer, which differs where pictures may differ.
 @type string
 > #ui.renderer > 0  --> true)"},
+    {"pictures_drawn", guarded<get_pictures_drawn>, R"(
+Number of pictures that ui:show has drawn. One that shows the same as that of the last frame is kept.
+@type integer
+> for _ = 1, 3 do ui:frame(0.01, function(ui) ui:show(world) end) end
+> ui.pictures_drawn  --> 1)"},
     {"line_height", guarded<get_line_height>, R"(
 Height of a row of widgets.
 @type number [pixels]
@@ -291,7 +305,7 @@ Describes and draws one frame.
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:text "hello" end) end)
 > ui:frame(0.01, function() error "no" end)  --> error: no)"},
     {"show", guarded<ui_show>, R"(
-Draws a world behind the panels, as a draft of clench.render.
+Shows a world behind the panels, as a draft of clench.render, which is drawn when something that it shows has changed.
 @param world world  world to draw
 @param options? table  the camera, and what is shown
 @option eye? vec3 [m]  position of the camera; by default a camera that shows everything
@@ -332,6 +346,13 @@ Adds input, which the next frames apply.
 > ui:input {kind = "move", x = 5, y = 5}
 > ui:frame(0.01, function() end)
 > ui.mouse.x  --> 5.0)"},
+    {"redraw", guarded<ui_redraw>, R"(
+Discards the kept pictures: the next frame draws all of them anew, including what panels cover.
+@effect edits
+> ui:frame(0.01, function(ui) ui:show(world) end)
+> ui:redraw()
+> ui:frame(0.01, function(ui) ui:show(world) end)
+> ui.pictures_drawn  --> 2)"},
     {"poll", guarded<ui_poll>, R"(
 Collects input of the window.
 @return boolean waiting  is there input that no frame has applied?

@@ -146,9 +146,8 @@ int ui_image(lua_State* L) {
   Table options(L, 4);
   const double width = options.number("width", picture.width);
   const double height = options.number("height", picture.height);
-  const bool changed = options.boolean("changed", true);
   options.done();
-  return push(L, gui.image(key, picture, changed, width, height));
+  return push(L, gui.image(key, picture, width, height));
 }
 
 int ui_same_line(lua_State* L) {
@@ -369,7 +368,6 @@ A picture.
 @param options? table  size
 @option width? number [pixels]  by default that of the picture
 @option height? number [pixels]  by default that of the picture
-@option changed? boolean = true  false: its pixels are those of the last frame
 @return boolean clicked
 @effect edits
 > picture = clench.render(world, {size = {32, 32}, quality = "draft"})
