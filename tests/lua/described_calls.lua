@@ -70,6 +70,7 @@ of_grasp("contact_forces", {}, function(grasp, options) return grasp:contact_for
 of_grasp("max_load", {direction = {0, 0, 1, 0, 0, 0}}, function(grasp, options) return grasp:max_load(options).load end)
 of_grasp("equilibrium", {}, function(grasp, options) return grasp:equilibrium(options).status end)
 of_grasp("optimal_preload", {loads = {{0, 0, -0.1, 0, 0, 0}}}, function(grasp, options) return grasp:optimal_preload(options).status end)
+of_grasp("fit_torques", {base = {0.1}, columns = {{1}}, ranges = {{-1, 1}}}, function(grasp, options) return grasp:fit_torques(options).status end)
 of_grasp("resistance", {wrench = {0, 0, 1, 0, 0, 0}}, function(grasp, options) return grasp:resistance(options) end)
 of_grasp("wrench_space", {}, function(grasp, options) return grasp:wrench_space(options).epsilon end)
 of_grasp("save", {}, function(grasp, options)

@@ -98,8 +98,7 @@ void Fit::add_ranges() {
       builder_.at_most({{column, MatrixXd::Constant(1, 1, sign)}},
                        VectorXd::Constant(1, sign * limit));
   };
-  for (int i = 0; i < family_.low.size(); ++i)
-    bound(p_ + i, 1, 1), bound(p_ + i, -1, -1);
+  for (int i = 0; i < family_.low.size(); ++i) bound(p_ + i, 1, 1), bound(p_ + i, -1, -1);
   for (int i = 0; i < clutches_; ++i)
     bound(c_ + i, 1, joints_.high[dofs_ + i]), bound(c_ + i, -1, joints_.low[dofs_ + i]);
 }
@@ -134,8 +133,7 @@ TorqueFit Fit::result() const {
   TorqueFit out;
   out.status = solution.status;
   if (out.status != ConeStatus::optimal && out.status != ConeStatus::inaccurate) return out;
-  out.parameters =
-      middle_ + half_.cwiseProduct(solution.x.segment(p_, family_.columns.cols()));
+  out.parameters = middle_ + half_.cwiseProduct(solution.x.segment(p_, family_.columns.cols()));
   out.parameters = out.parameters.cwiseMax(family_.low).cwiseMin(family_.high);
   out.torques = family_.base + family_.columns * out.parameters;
   out.errors = solution.x.segment(r_, joints_.forces.rows());

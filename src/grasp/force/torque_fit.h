@@ -7,9 +7,9 @@ namespace clench {
 
 /// Torques of the hand's DOFs that depend linearly on parameters: base + columns * parameters.
 struct TorqueFamily {
-  Eigen::VectorXd base;        ///< one per DOF [N m or N]
-  Eigen::MatrixXd columns;     ///< DOFs x parameters
-  Eigen::VectorXd low, high;   ///< of the parameters, low <= high
+  Eigen::VectorXd base;       ///< one per DOF [N m or N]
+  Eigen::MatrixXd columns;    ///< DOFs x parameters
+  Eigen::VectorXd low, high;  ///< of the parameters, low <= high
 };
 
 struct TorqueFitOptions {

@@ -84,8 +84,7 @@ static int sample(lua_State* L) {
 
 static int boxes_of(lua_State* L) {
   const Watching watching(L);
-  const auto boxes =
-      bounding_boxes(shape_of(L), check_int(L, 2, "depth"), watching.progress());
+  const auto boxes = bounding_boxes(shape_of(L), check_int(L, 2, "depth"), watching.progress());
   return push_list_of(L, boxes, [&](const OrientedBox& box) {
     push_record(L, {{"pose", box.X_MB}, {"size", Eigen::Vector3d(2 * box.half)}});
   });
