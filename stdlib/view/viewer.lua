@@ -14,6 +14,7 @@ local layout = require "clench.view.layout"
 local loop_task = require "clench.loop_task"
 local palette = require "clench.view.palette"
 local preferences = require "clench.view.preferences"
+local printable = require "clench.printable"
 local raise = require "clench.raise"
 local replay = require "clench.view.replay"
 local splitters = require "clench.view.splitters"
@@ -36,7 +37,7 @@ end
 
 --- Prints a line in the console.
 function Viewer:print(text, kind)
-  for line in (tostring(text) .. "\n"):gmatch "(.-)\n" do self.lines[#self.lines + 1] = {text = line, kind = kind} end
+  for line in (printable(tostring(text), "\n\t") .. "\n"):gmatch "(.-)\n" do self.lines[#self.lines + 1] = {text = line, kind = kind} end
   while #self.lines > max_lines do table.remove(self.lines, 1) end
   self.scroll_console = true
 end
@@ -58,7 +59,7 @@ end
 
 --- Shows an error in the console and in the status bar.
 function Viewer:fail(problem)
-  self.status = error_text(problem)
+  self.status = printable(error_text(problem), "\n\t")
   self:print(self.status, "error")
 end
 
@@ -142,6 +143,9 @@ function Viewer:frame()
   if not self.in_loop and not loop_task.thread then clench.loop.run(0) end
   self.needs_frame = false
   self.frames = self.frames + 1
+  local depth = self.depth
+  self.depth = depth + 1
+  local _ <close> = setmetatable({}, {__close = function() self.depth = depth end})
   local passed = time_since_last(self)
   replay.advance(self, passed)
   self.ui:frame(passed, function(ui)
@@ -158,7 +162,9 @@ function Viewer:frame()
     palette.draw(self, ui)
     bindings.update(self)
   end)
+  self.depth = depth
   drop(self)
+  if self.closes and depth == 0 then self:close() end
 end
 
 --- Saves a picture of the view.
@@ -167,9 +173,12 @@ end
 function Viewer:screenshot(options)
   options = check.options("view:screenshot", options, {"path", "camera", "size", "panels", "stereo"})
   local in_stereo = stereo.checked("view:screenshot: stereo", options.stereo)
+  if self.depth > 1 then raise "view:screenshot: a screenshot is being drawn already; a panel that takes one in each frame never ends" end
   follow_world(self)
   local ui, before, visible, seen = self.ui, self.camera, self.panels_visible, self.stereo
-  local other = options.size and clench.ui {size = options.size, dark = self.dark, scale = self.scale}
+  -- within a frame, as from a panel's button, another screen is drawn to
+  local size = options.size or self.depth > 0 and ui.size
+  local other = size and clench.ui {size = size, dark = self.dark, scale = self.scale}
   local _ <close> = setmetatable({}, {__close = function()
     self.ui, self.camera, self.panels_visible, self.stereo = ui, before, visible, seen
     if other then other:close() end
@@ -255,9 +264,13 @@ function Viewer:flush()
   end
 end
 
---- Closes the view.
+--- Closes the view; within a frame, as from a panel's button, at the end of the frame.
 function Viewer:close()
   if self.is_closed then return end
+  if self.depth > 0 then
+    self.closes = true
+    return
+  end
   self.is_closed = true
   for _, unsubscribe in ipairs(self.subscriptions) do unsubscribe() end
   if self.timer then self.timer:remove() end
@@ -274,7 +287,7 @@ end
 return function(options)
   local session = options.session
   local view = setmetatable({
-    session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m", angle = "rad"}, edits = {}, front = {}, display = {},
+    session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, depth = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m", angle = "rad"}, edits = {}, front = {}, display = {},
     panels_visible = true, picture_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, bindings = {}, edges = {}, scale = 1, sizes = {left = splitters.default.left, right = splitters.default.right, bottom = splitters.default.bottom}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
   }, Viewer)
   local size = options.size or options.window and preferences.size()
