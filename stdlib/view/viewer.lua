@@ -108,10 +108,22 @@ local function follow_world(self)
   self:home()
 end
 
+-- a camera that a script has set and that shows nothing is reported, and the last one stays
+local function complete_camera(self, world)
+  local ok, result = pcall(camera.complete, world, self.ui.size, self.camera)
+  if ok then
+    self.camera, self.last_camera = result, result
+  else
+    self.camera = self.last_camera
+    self:fail(result)
+    if not self.camera then self:home() end
+  end
+end
+
 local function draw_world(self, ui)
   local world = self.session.world
   if not (world and self.picture_visible) then return end
-  self.camera = camera.complete(world, self.ui.size, self.camera)
+  complete_camera(self, world)
   local options = {}
   for name, value in pairs(self.display) do options[name] = value end
   local shown = not self.replay and self.shown_forces or nil
@@ -183,7 +195,7 @@ function Viewer:screenshot(options)
     self.ui, self.camera, self.panels_visible, self.stereo = ui, before, visible, seen
     if other then other:close() end
   end})
-  if options.camera ~= nil then self.camera = options.camera end
+  if options.camera ~= nil then self.camera = camera.complete(self.session.world, (other or ui).size, options.camera) end
   if options.panels ~= nil then self.panels_visible = options.panels end
   if options.stereo ~= nil then self.stereo = in_stereo end
   if other then

@@ -176,3 +176,17 @@ test("File/Save View… writes the picture", function(t)
   os.remove(path .. ".png")
   view:close()
 end)
+
+test("a camera that shows nothing is reported, and the last one stays", function(t)
+  local view = clench.view.offscreen {session = session, size = {300, 200}}
+  view:frame()
+  local camera, origin = view.camera, clench.vec3(0, 0, 0)
+  for _, bad in ipairs {{eye = origin, target = origin, up = clench.vec3(0, 0, 1), field_of_view = 0.5}, 5, {eye = "x"}} do
+    view.status = "Ready"
+    view.camera = bad
+    view:frame()
+    t.ok(view.status ~= "Ready")
+    t.equal(view.camera, camera)
+  end
+  view:close()
+end)
