@@ -32,15 +32,31 @@ Edited<T> edited(T value, bool changed) {
   return {std::move(value), changed, ImGui::IsItemDeactivatedAfterEdit()};
 }
 
+// the beginning of a text: of a wrapped one Dear ImGui draws every character, also those outside of
+// the window, and ends the program beyond 16383
+std::string_view wrappable(std::string_view text) {
+  constexpr size_t max_size = 10000;  // [bytes]
+  if (text.size() <= max_size) return text;
+  size_t end = max_size;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return text.substr(0, end);
+}
+
 }  // namespace
 
 void Gui::text(const std::string& text, std::optional<Rgba> color, bool wrap) {
   if (color) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(*color));
   if (wrap) ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  const std::string_view drawn = wrap ? wrappable(text) : text;
+  ImGui::TextUnformatted(drawn.data(), drawn.data() + drawn.size());
+  state_->note(text, "text");
+  if (drawn.size() < text.size()) {
+    const std::string rest = "... (" + std::to_string(text.size()) + " bytes)";
+    ImGui::TextUnformatted(rest.c_str());
+    state_->note(rest, "text");
+  }
   if (wrap) ImGui::PopTextWrapPos();
   if (color) ImGui::PopStyleColor();
-  state_->note(text, "text");
 }
 
 bool Gui::button(const std::string& label, double width, double height, bool selected) {

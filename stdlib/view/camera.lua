@@ -1,16 +1,25 @@
 --- The camera of a view: projection, rays and navigation. A camera is a table {eye, target, up, field_of_view}, as clench.render takes it; that of
 --- one eye of a stereoscopic picture has its shift `aside`, as a fraction of the height.
+local raise = require "clench.raise"
 local camera = {}
 
 local min_distance = 1e-4  -- of eye and target [m]
 
 local function is_vector(x) return clench.type(x) == "vec3" end
 
+-- do the vectors of a camera span its axes?
+local function is_sound(c)
+  local back = c.eye - c.target
+  return back:norm() > 0 and c.up:cross(back):norm() > 0
+end
+
 --- A camera of a script, which may lack fields or have lists for points, as clench.render reads it; errors name what is wrong.
 ---@param size number[]  of the screen [pixels]
 function camera.complete(world, size, c)
-  if type(c) == "table" and is_vector(c.eye) and is_vector(c.target) and is_vector(c.up) and type(c.field_of_view) == "number" then return c end
-  return clench.camera(world, {size = {size[1], size[2]}, camera = c})
+  if type(c) == "table" and is_vector(c.eye) and is_vector(c.target) and is_vector(c.up) and type(c.field_of_view) == "number" and is_sound(c) then return c end
+  local read = clench.camera(world, {size = {size[1], size[2]}, camera = c})
+  if not is_sound(read) then raise "camera: eye and target must be two points, and up must point aside from the view" end
+  return read
 end
 
 --- A string that is equal for equal cameras only.

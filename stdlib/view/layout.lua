@@ -4,9 +4,11 @@ local bindings = require "clench.view.bindings"
 local compare = require "clench.view.compare"
 local context = require "clench.view.context"
 local dialog = require "clench.view.dialog"
+local error_text = require "clench.error_text"
 local help = require "clench.view.help"
 local leave = require "clench.view.leave"
 local menus = require "clench.view.menus"
+local printable = require "clench.printable"
 local projections = require "clench.view.projections"
 local selection = require "clench.view.selection"
 local splitters = require "clench.view.splitters"
@@ -44,7 +46,7 @@ end
 -- shows an error of a panel in the panel
 local function draw_panel(view, ui, panel)
   local ok, message = pcall(panel.draw, ui, view)
-  if not ok then ui:text(tostring(message), {color = {0.84, 0.37, 0}, wrap = true}) end
+  if not ok then ui:text(printable(error_text(message), "\n\t"), {color = {0.84, 0.37, 0}, wrap = true}) end
 end
 
 local function placed(view, place)

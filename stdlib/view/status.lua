@@ -1,5 +1,6 @@
 --- The status bar: the last message, in orange if it is an error, the file, the tool, and the bodies that overlap.
 local error_text = require "clench.error_text"
+local printable = require "clench.printable"
 local replay = require "clench.view.replay"
 local status = {}
 
@@ -14,7 +15,7 @@ function status.warn(view, text)
 end
 
 --- Shows an error in the same way.
-function status.fail(view, problem) status.warn(view, error_text(problem)) end
+function status.fail(view, problem) status.warn(view, printable(error_text(problem), "\n\t")) end
 
 --- Removes an error once something else has been done.
 ---@param event table  "changed" of the session

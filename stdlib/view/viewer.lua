@@ -15,6 +15,7 @@ local layout = require "clench.view.layout"
 local loop_task = require "clench.loop_task"
 local palette = require "clench.view.palette"
 local preferences = require "clench.view.preferences"
+local printable = require "clench.printable"
 local raise = require "clench.raise"
 local replay = require "clench.view.replay"
 local splitters = require "clench.view.splitters"
@@ -39,7 +40,7 @@ end
 
 --- Prints a line in the console.
 function Viewer:print(text, kind)
-  for line in (tostring(text) .. "\n"):gmatch "(.-)\n" do self.lines[#self.lines + 1] = {text = line, kind = kind} end
+  for line in (printable(tostring(text), "\n\t") .. "\n"):gmatch "(.-)\n" do self.lines[#self.lines + 1] = {text = line, kind = kind} end
   while #self.lines > max_lines do table.remove(self.lines, 1) end
   self.scroll_console = true
 end
@@ -105,10 +106,22 @@ local function follow_world(self)
   self:home()
 end
 
+-- a camera that a script has set and that shows nothing is reported, and the last one stays
+local function complete_camera(self, world)
+  local ok, result = pcall(camera.complete, world, self.ui.size, self.camera)
+  if ok then
+    self.camera, self.last_camera = result, result
+  else
+    self.camera = self.last_camera
+    self:fail(result)
+    if not self.camera then self:home() end
+  end
+end
+
 local function draw_world(self, ui)
   local world = self.session.world
   if not (world and self.picture_visible) then return end
-  self.camera = camera.complete(world, self.ui.size, self.camera)
+  complete_camera(self, world)
   local options = {}
   for name, value in pairs(self.display) do options[name] = value end
   local shown = not self.replay and self.shown_forces or nil
@@ -142,6 +155,9 @@ function Viewer:frame()
   if not self.in_loop and not loop_task.thread then clench.loop.run(0) end
   self.needs_frame = false
   self.frames = self.frames + 1
+  local depth = self.depth
+  self.depth = depth + 1
+  local _ <close> = setmetatable({}, {__close = function() self.depth = depth end})
   local passed = time_since_last(self)
   replay.advance(self, passed)
   self.ui:frame(passed, function(ui)
@@ -158,7 +174,9 @@ function Viewer:frame()
     palette.draw(self, ui)
     bindings.update(self)
   end)
+  self.depth = depth
   drop(self)
+  if self.closes and depth == 0 then self:close() end
 end
 
 --- Saves a picture of the view.
@@ -167,14 +185,17 @@ end
 function Viewer:screenshot(options)
   options = check.options("view:screenshot", options, {"path", "camera", "size", "panels", "stereo"})
   local in_stereo = stereo.checked("view:screenshot: stereo", options.stereo)
+  if self.depth > 1 then raise "view:screenshot: a screenshot is being drawn already; a panel that takes one in each frame never ends" end
   follow_world(self)
   local ui, before, visible, seen = self.ui, self.camera, self.panels_visible, self.stereo
-  local other = options.size and clench.ui {size = options.size, dark = self.dark, scale = self.scale}
+  -- within a frame, as from a panel's button, another screen is drawn to
+  local size = options.size or self.depth > 0 and ui.size
+  local other = size and clench.ui {size = size, dark = self.dark, scale = self.scale}
   local _ <close> = setmetatable({}, {__close = function()
     self.ui, self.camera, self.panels_visible, self.stereo = ui, before, visible, seen
     if other then other:close() end
   end})
-  if options.camera ~= nil then self.camera = options.camera end
+  if options.camera ~= nil then self.camera = camera.complete(self.session.world, (other or ui).size, options.camera) end
   if options.panels ~= nil then self.panels_visible = options.panels end
   if options.stereo ~= nil then self.stereo = in_stereo end
   if other then
@@ -266,9 +287,13 @@ local function lend_camera(self)
   self.session.sensors.camera = self.lent_camera
 end
 
---- Closes the view.
+--- Closes the view; within a frame, as from a panel's button, at the end of the frame.
 function Viewer:close()
   if self.is_closed then return end
+  if self.depth > 0 then
+    self.closes = true
+    return
+  end
   self.is_closed = true
   if self.session.sensors.camera == self.lent_camera then self.session.sensors.camera = nil end
   for _, unsubscribe in ipairs(self.subscriptions) do unsubscribe() end
@@ -286,7 +311,7 @@ end
 return function(options)
   local session = options.session
   local view = setmetatable({
-    session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m", angle = "rad"}, edits = {}, front = {}, display = {}, ghosts = {}, shows_search = true, shows_solution = true,
+    session = session, title = options.title, recent = {}, kept = {}, stamp = 0, frames = 0, depth = 0, lines = {}, console_text = "", globals = {}, dialogs = {}, hidden = {}, units = {length = "m", angle = "rad"}, edits = {}, front = {}, display = {}, ghosts = {}, shows_search = true, shows_solution = true,
     panels_visible = true, picture_visible = true, current_tool = "Camera", navigation = "Original", bookmarks = {}, bindings = {}, edges = {}, shares = {}, scale = 1, sizes = {left = splitters.default.left, right = splitters.default.right, bottom = splitters.default.bottom}, measured = {}, tools = tools.names, dark = options.dark or false, has_theme = options.dark ~= nil, status = "Ready", subscriptions = {},
   }, Viewer)
   local size = options.size or options.window and preferences.size()

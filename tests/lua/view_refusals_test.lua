@@ -75,3 +75,118 @@ test("widgets with empty labels and enormous numbers end neither a frame nor the
   draw(function() ui:button "go" end)
   t.equal(ui.items[#ui.items].label, "go")
 end)
+
+-- a panel that calls a function, and removes itself
+local function once(view, f)
+  local done
+  clench.view.panel {name = "Once", place = "left", draw = function(ui)
+    if done then return end
+    done = true
+    f(ui)
+  end}
+  view:frame()
+  return view
+end
+
+local function texts(view)
+  local list = {}
+  for _, item in ipairs(view.ui.items) do
+    if item.kind == "text" then list[#list + 1] = item.label end
+  end
+  return table.concat(list, "\n")
+end
+
+test("errors of a panel with zero bytes, or with a million bytes, are shown in it", function(t)
+  local view = clench.view.offscreen {session = session, size = {700, 500}}
+  once(view, function() error("a\0b", 0) end)
+  t.ok(texts(view):find("a?b", 1, true))
+  once(view, function() error(("x"):rep(1e6), 0) end)
+  t.ok(texts(view):find "x%.%.%. %(1000000 characters%)")
+  view:print("c\0d")
+  view:fail(setmetatable({}, {__tostring = function() return "e\0f" end}))
+  view:frame()
+  t.ok(texts(view):find("c?d", 1, true) and view.status == "e?f")
+  view:close()
+end)
+
+test("texts of more characters than Dear ImGui draws at once do not end the program", function(t)
+  local ui = clench.ui {size = {400, 300}}
+  -- in a window of its own each: the text in lines that fit, the text in lines as they are, and a button of it
+  local function draw(text, at_end)
+    local widgets = {function(ui) ui:text(text, {wrap = true}) end, function(ui) ui:text(text) end, function(ui) ui:button(text) end}
+    ui:frame(0.01, function(ui)
+      for i, widget in ipairs(widgets) do
+        ui:window("w" .. i, {x = 0, y = 100 * (i - 1), width = 400, height = 100}, function(ui)
+          widget(ui)
+          if at_end then ui:scroll_to_end() end
+        end)
+      end
+    end)
+  end
+  local function labels()
+    local list = {}
+    for _, item in ipairs(ui.items) do
+      if item.kind ~= "window" then list[#list + 1] = item.window .. " " .. item.kind .. " " .. item.label end
+    end
+    return list
+  end
+  for _, text in ipairs {("é"):rep(4990), ("é漢 x"):rep(200000), ("x"):rep(1e6), ("x\n"):rep(1e5)} do
+    draw(text, false)
+    draw(text, false)
+    t.ok(table.concat(labels(), ";") == ("w1 text %s;w2 text %s;w3 button %s"):format(text, text, text), "each is seen from its beginning")
+    for _ = 1, 3 do draw(text, true) end
+    -- what is left out is counted at the end
+    local count = table.concat(labels(), ";"):match "w1 text %.%.%. %((%d+) bytes%)"
+    t.equal(count, #text > 10000 and tostring(#text) or nil)
+    for _ = 1, 3 do draw("", false) end
+  end
+  ui:close()
+end)
+
+test("a panel may take a screenshot and close the view, but not draw frames", function(t)
+  local view = clench.view.offscreen {session = session, size = {300, 200}}
+  local picture
+  once(view, function() picture = view:screenshot {panels = false} end)
+  t.equal(picture == view:screenshot {panels = false}, true)
+  once(view, function() picture = view:screenshot {size = {64, 48}} end)
+  t.equal(picture.width, 64)
+  clench.view.panel {name = "Once", place = "left", draw = function() view:screenshot() end}
+  view:frame()
+  t.ok(not view.is_closed)
+  once(view, function() view:frame() end)
+  t.ok(texts(view):find "a frame is open already")
+  once(view, function() view:close() end)
+  t.ok(view.is_closed)
+  t.fails(function() view:frame() end, "view:frame: the view was closed")
+end)
+
+test("File/Save View… writes the picture", function(t)
+  local view = clench.view.offscreen {session = session, size = {500, 400}}
+  local path = os.tmpname()
+  os.remove(path)
+  view:menu "File/Save View…"
+  view:frame()
+  view:key "ctrl+a"
+  view:type(path)
+  view:click_label("Save", "button")
+  view:frame()
+  t.equal(view.ask, nil)
+  local file <close> = assert(io.open(path .. ".png", "rb"))
+  t.equal(file:read(4), "\137PNG")
+  os.remove(path .. ".png")
+  view:close()
+end)
+
+test("a camera that shows nothing is reported, and the last one stays", function(t)
+  local view = clench.view.offscreen {session = session, size = {300, 200}}
+  view:frame()
+  local camera, origin = view.camera, clench.vec3(0, 0, 0)
+  for _, bad in ipairs {{eye = origin, target = origin, up = clench.vec3(0, 0, 1), field_of_view = 0.5}, 5, {eye = "x"}} do
+    view.status = "Ready"
+    view.camera = bad
+    view:frame()
+    t.ok(view.status ~= "Ready")
+    t.equal(view.camera, camera)
+  end
+  view:close()
+end)

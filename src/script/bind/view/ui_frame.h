@@ -37,7 +37,7 @@ inline Rgba read_color(Table& options, const char* key, const Rgba& fallback) {
   return color;
 }
 
-// An error of a body, kept until the containers around it are closed.
+// The function that fills a container, which may draw frames of other interfaces, too.
 class BodyOf {
  public:
   BodyOf(lua_State* L, int function) : L_(L), function_(function) {
@@ -45,6 +45,10 @@ class BodyOf {
       fail("{}: expected a function, got {}", subject(L), described(L, function));
   }
   void operator()() const {
+    struct Resumed {
+      Gui& gui;
+      ~Resumed() { gui.resume(); }
+    } const resumed{open_gui(L_)};
     lua_pushvalue(L_, function_);
     lua_pushvalue(L_, 1);
     call_script(L_, 1, 0, "ui");
