@@ -189,7 +189,7 @@ local entity = {}
 ---@class body: motion
 ---@field name string # Name, unique in its world.
 ---@field pose pose # Its pose in the world frame. Setting it moves the body at once, without collision checks; see move_to. The parts of a robot move with the robot.
----@field kind string # "object", "obstacle", "base", "link" or "mount".
+---@field kind string # "object", "obstacle", "base", "link" or "mount". An obstacle that is set to "object" moves in simulations, and can be grasped; an object that is set to "obstacle" stays where it is. Both come to rest.
 ---@field robot robot? # The robot that it is a part of; nil for objects and obstacles.
 ---@field bounds_in_world {low: vec3, high: vec3}? # Minimum and maximum coordinates of its surface in the world frame; nil if it has none. [m]
 ---@field source string # File from which it was read; empty if a script made it.
@@ -233,6 +233,11 @@ function mesh:closest_point(point) end
 ---@param point vec3 # [m]
 ---@return boolean
 function mesh:contains(point) end
+
+---The boxes of the tree that collision queries descend, in the body frame: one at depth 0, up to eight times as many at each further depth. Branches that end earlier are represented by their last boxes.
+---@param depth integer # levels below the box of the complete mesh
+---@return {pose: pose, size: vec3}[] # pose: of the center; size: along the axes of the pose [m]
+function mesh:bounding_boxes(depth) end
 
 ---Random points on the surface, uniformly distributed by area, with the outward normals of their triangles.
 ---@param random random # source of the random numbers
@@ -485,6 +490,11 @@ function forces:max_load(options) end
 ---@return table result # `status`, `torques`, `fraction`, `normals`
 function forces:optimal_preload(options) end
 
+---Torques of the DOFs that depend linearly on parameters, base + sum of parameters[i] * columns[i], and contact forces that balance the load: the parameters for which the unbalanced torques of the joints are smallest. Springs and clutches act as in equilibrium. It fits designs of tendon-driven hands (Ciocarlie and Allen 2011). `status`: "optimal"; "infeasible": no contact forces balance the load; "inaccurate". `parameters`; `torques`: one per DOF; `errors`: unbalanced torques, one per DOF, or per joint of a compliant DOF; `error`: their length; `normals`: normal force of each contact [N].
+---@param options {base: number[], columns: number[][], ranges: number[][], load?: number[], max_force?: number|number[], link_weights?: boolean} # the torques and the load
+---@return table result # `status`, `parameters`, `torques`, `errors`, `error`, `normals`
+function forces:fit_torques(options) end
+
 ---Can the hand in its present posture hold the load (as in contact_forces)? Its joints must be in equilibrium too: by motors through their couplings, within hand.effort_ranges, by springs, and by the clutches of joints that have broken away. The palm resists any force. `status`: "stable"; "unstable": `unbalanced` is the smallest remaining wrench, and `certificate` names what yields; "moving": no contact forces balance the joints, so that a finger moves; "inaccurate".
 ---@param options? {load?: number[], torque_limits?: boolean|number[], torques?: number[]|"springs"|"limits", max_force?: number|number[], arms?: boolean, link_weights?: boolean} # the load, the torques and the limits
 ---@return table result # `status`, `forces`, `margin`, `residual`, `unbalanced`, `joint_torques`, `certificate`
@@ -652,7 +662,7 @@ function wrench_space:project(options) end
 local projection = {}
 
 ---Draws it transparently, with its axes and their numbers [N], the part of the ball of epsilon that lies in it, and the weakest direction; size, samples and camera as in clench.render.
----@param options? {ball?: boolean, weakest?: boolean, size?: integer[], quality?: "paper"|"draft", background?: "studio"|"white"|"transparent", outline?: number, letters?: number, samples?: integer, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, camera?: {eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number}} # what is shown, and the picture
+---@param options? {ball?: boolean, weakest?: boolean, size?: integer[], quality?: "paper"|"draft", background?: "studio"|"white"|"transparent", outline?: number, letters?: number, samples?: integer, style?: "faces"|"wireframe"|"points", eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, camera?: {eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number}} # what is shown, and the picture
 ---@return picture
 function projection:render(options) end
 
@@ -1063,6 +1073,7 @@ function robot_dynamics:has_closed() end
 ---@field wants_text boolean # Is text being typed into a widget?
 ---@field close_requested boolean # Has the user asked to close the window?
 ---@field renderer string # Name of the OpenGL renderer, which differs where pictures may differ.
+---@field pictures_drawn integer # Number of pictures that ui:show has drawn. One that shows the same as that of the last frame is kept.
 ---@field line_height number # Height of a row of widgets.
 local ui = {}
 
@@ -1071,9 +1082,9 @@ local ui = {}
 ---@param draw fun(ui: ui) # describes the widgets of the frame
 function ui:frame(dt, draw) end
 
----Draws a world behind the panels, as a draft of clench.render.
+---Shows a world behind the panels, as a draft of clench.render, which is drawn when something that it shows has changed.
 ---@param world world # world to draw
----@param options? {eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: number, aside?: number, part?: "all"|"left"|"right", channels?: "all"|"red"|"cyan", frame?: "contacts"|"all", contacts?: boolean, cones?: "apart"|"equal"|"friction"|"force", cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean|number, transparent_objects?: boolean, file_colors?: boolean, forces?: {contact: contact, force: vec3}[], force_scale?: number, arrows?: boolean} # the camera, and what is shown
+---@param options? {eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: number, aside?: number, part?: "all"|"left"|"right", channels?: "all"|"red"|"cyan", frame?: "contacts"|"all", contacts?: boolean, cones?: "apart"|"equal"|"friction"|"force", cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean|number, transparent_objects?: boolean, file_colors?: boolean, forces?: {contact: contact, force: vec3}[], force_scale?: number, arrows?: boolean, ghosts?: {robot: robot, color?: number[]}[], wrenches?: {point: vec3, force?: vec3, torque?: vec3}[], style?: "faces"|"wireframe"|"points"} # the camera, and what is shown
 function ui:show(world, options) end
 
 ---The pixels of the last frame.
@@ -1087,6 +1098,9 @@ function ui:hash() end
 ---Adds input, which the next frames apply.
 ---@param event {kind?: "move"|"button"|"wheel"|"key"|"text"|"close"|"drop", x?: number, y?: number, code?: integer, down?: boolean, text?: string} # the synthetic event
 function ui:input(event) end
+
+---Discards the kept pictures: the next frame draws all of them anew, including what panels cover.
+function ui:redraw() end
 
 ---Collects input of the window.
 ---@return boolean waiting # is there input that no frame has applied?
@@ -1208,7 +1222,7 @@ function ui_widgets:plot(label, values, options) end
 ---A picture.
 ---@param key string # identifies it from frame to frame
 ---@param picture picture # its pixels
----@param options? {width?: number, height?: number, changed?: boolean} # size
+---@param options? {width?: number, height?: number} # size
 ---@return boolean clicked
 function ui_widgets:image(key, picture, options) end
 
@@ -1239,6 +1253,9 @@ function ui_widgets:focus() end
 
 ---Scrolls to the last widget.
 function ui_widgets:scroll_to_end() end
+
+---Scrolls the last widget into view, as little as possible.
+function ui_widgets:reveal() end
 
 ---Is the mouse over the last widget?
 ---@return boolean
@@ -1343,6 +1360,11 @@ function ui_containers:id(id, draw) end
 ---@param draw fun(ui: ui) # draws them
 function ui_containers:clip(x, y, width, height, draw) end
 
+---Restricts lines, circles and labels over the picture to some of its colors.
+---@param channels "all"|"red"|"cyan" # the colors that are drawn
+---@param draw fun(ui: ui) # draws them
+function ui_containers:channels(channels, draw) end
+
 ---Widgets laid out as one.
 ---@param draw fun(ui: ui) # describes the widgets
 function ui_containers:group(draw) end
@@ -1351,11 +1373,12 @@ function ui_containers:group(draw) end
 ---@param id string # unique name
 ---@param names string[] # of the tabs
 ---@param draw fun(ui: ui, name: string) # describes the open one
-function ui_containers:tabs(id, names, draw) end
+---@param chosen? string # name of the tab that is opened now
+function ui_containers:tabs(id, names, draw, chosen) end
 
 ---A node of a tree.
 ---@param label string # text
----@param options {open?: boolean, leaf?: boolean, selected?: boolean} # look
+---@param options {open?: boolean, leaf?: boolean, selected?: boolean, unfold?: boolean} # look
 ---@param draw? fun(ui: ui) # describes what is below it
 ---@return boolean clicked
 ---@return boolean double_clicked
@@ -1488,13 +1511,13 @@ function clench.eigengrasps(options) end
 
 ---Draws a world: robots, objects, obstacles, and the friction cones where robots touch objects; with `patches`, the patches of all soft contacts instead of the cones, which would cover them. The camera looks at the objects that robots touch and the links of those robots, or at everything, unless it is given completely or in part. The same world gives the same bytes. It needs EGL and OpenGL, but no display. Data of a picture are cached for the next one, which is drawn faster.
 ---@param world world # world to draw
----@param options? {size?: integer[], quality?: "paper"|"draft", background?: "studio"|"white"|"transparent", outline?: number, letters?: number, samples?: integer, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, camera?: {eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number}, frame?: "contacts"|"all", contacts?: boolean, cones?: "apart"|"equal"|"friction"|"force", cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean|number, transparent_objects?: boolean, file_colors?: boolean, forces?: {contact: contact, force: vec3}[], force_scale?: number, arrows?: boolean} # the picture, the camera, and what is shown
+---@param options? {size?: integer[], quality?: "paper"|"draft", background?: "studio"|"white"|"transparent", outline?: number, letters?: number, samples?: integer, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, camera?: {eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number}, frame?: "contacts"|"all", contacts?: boolean, cones?: "apart"|"equal"|"friction"|"force", cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean|number, transparent_objects?: boolean, file_colors?: boolean, forces?: {contact: contact, force: vec3}[], force_scale?: number, arrows?: boolean, ghosts?: {robot: robot, color?: number[]}[], wrenches?: {point: vec3, force?: vec3, torque?: vec3}[], style?: "faces"|"wireframe"|"points"} # the picture, the camera, and what is shown
 ---@return picture
 function clench.render(world, options) end
 
 ---The camera that clench.render chooses with the same options; for several states of a world, one camera for all of them, as for a film: it shows the objects that robots touch in some state, and those robots from the palm outward; if nothing is touched, everything.
 ---@param worlds world|world[] # a list: states of one world, such as clones of it
----@param options? {size?: integer[], quality?: "paper"|"draft", background?: "studio"|"white"|"transparent", outline?: number, letters?: number, samples?: integer, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, camera?: {eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number}, frame?: "contacts"|"all", contacts?: boolean, cones?: "apart"|"equal"|"friction"|"force", cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean|number, transparent_objects?: boolean, file_colors?: boolean, forces?: {contact: contact, force: vec3}[], force_scale?: number, arrows?: boolean} # those of clench.render
+---@param options? {size?: integer[], quality?: "paper"|"draft", background?: "studio"|"white"|"transparent", outline?: number, letters?: number, samples?: integer, eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number, camera?: {eye?: vec3, target?: vec3, up?: vec3, field_of_view?: number, orthographic?: boolean|number}, frame?: "contacts"|"all", contacts?: boolean, cones?: "apart"|"equal"|"friction"|"force", cone_height?: number, patches?: boolean, approach?: boolean, ground?: boolean|number, transparent_objects?: boolean, file_colors?: boolean, forces?: {contact: contact, force: vec3}[], force_scale?: number, arrows?: boolean, ghosts?: {robot: robot, color?: number[]}[], wrenches?: {point: vec3, force?: vec3, torque?: vec3}[], style?: "faces"|"wireframe"|"points"} # those of clench.render
 ---@return table camera # {eye: vec3, target: vec3, up: vec3, field_of_view: number, orthographic?: number}, options of clench.render
 function clench.camera(worlds, options) end
 
@@ -1561,8 +1584,15 @@ function clench.json.encode(value, options) end
 
 ---The value of a JSON text. A null in a list is `clench.json.null`; in an object it is absent.
 ---@param text string # JSON text
+---@param options? {max_values?: integer} # limits
 ---@return any
-function clench.json.decode(text) end
+function clench.json.decode(text, options) end
+
+---The items of a JSON list, or the values of an object by name, as JSON texts. Only strings and brackets in them are checked. For long texts that are decoded in parts.
+---@param text string # JSON text
+---@param options? {max_values?: integer} # limits
+---@return table<any, string>
+function clench.json.split(text, options) end
 
 ---Messages of scripts and of the engine, to stderr, so that they never mix with a script's output.
 ---@class clench.log
