@@ -140,7 +140,7 @@ end
 ---@return mirror mirror # `pull`, `push`
 ---@effect reads
 --- > device = {read = function() return {0, 1, 1, 1} end, move = function() end}
---- > clench.devices.mirror {hand = hand, device = device, dofs = {1, 1}}  --> error: dofs[2] must be a number from 1 to 4, different from the others
+--- > clench.devices.mirror {hand = hand, device = device, dofs = {1, 1}}  --> error: dofs[2] must be a number from 1 to 12, different from the others
 return function(options)
   local o = new_options(subject, options)
   local mirror = {hand = o:get "hand", device = o:raw "device", max_speed = o:get "max_speed", interval = o:get "interval"}

@@ -63,7 +63,7 @@ local function plot_of(result)
   return clench.plot {series = {{x = x, y = y}, {x = {0}, y = {0}, kind = "points"}}, x_label = label(result.axes[1]), y_label = label(result.axes[2]), width = 248, height = 220}
 end
 
-local function draw_section(ui, state)
+local function draw_section(view, ui, state)
   local result = state.result
   local counts, weakest = {}, nil
   for _, ray in ipairs(result.rays) do
@@ -90,7 +90,7 @@ function results.draw(view, ui, state)
   if state.hash ~= view.session.world:hash() then return ui:text("Something has moved since.", {color = gray}) end
   if result.status then ui:text(result.status, {color = good[result.status] and green or orange}) end
   if state.kind == "preload" then return draw_preload(ui, result) end
-  if state.kind == "resistible_wrenches" then return draw_section(ui, state) end
+  if state.kind == "resistible_wrenches" then return draw_section(view, ui, state) end
   draw_balance(ui, result)
 end
 

@@ -56,7 +56,7 @@ test("statements reach every entry and every key, and Lua can parse them", funct
   math.randomseed(1)
   local made, left = statements.new(api, maker, true), {}
   for _, name in ipairs(api.names) do left[name] = true end
-  for n = 1, 100000 do
+  for n = 1, 400000 do
     local text, step = made:make(n)
     if n % 10 == 0 then t.ok(load(text), text) end
     for _, name in ipairs(statements.reached(text, step)) do left[name] = nil end

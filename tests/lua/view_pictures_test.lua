@@ -32,8 +32,8 @@ end
 
 local tall = {600, 700}
 local pictures = {
-  {name = "world", size = tall, panels = {"World", "Inspector", "Grasp Quality", "Display", "Virtual Contacts", "EigenGrasps"}},
-  {name = "forces", size = tall, panels = {"Forces", "Wrench Space", "Friction", "Author", "Tendons", "Gallery"}},
+  {name = "world", size = {600, 660}, panels = {"World", "Inspector", "Grasp Quality", "Display", "Virtual Contacts", "EigenGrasps"}},
+  {name = "forces", size = {600, 680}, panels = {"Forces", "Wrench Space", "Friction", "Author", "Tendons", "Gallery"}},
   {name = "runs", size = tall, panels = {"Sensors", "Jobs", "History", "Time Line", "Console", "Plots", "On-line Planner"}},
   {name = "dark", size = {360, 220}, dark = true, panels = {"World", "Display"}},
   {name = "anaglyph", size = {240, 180}, stereo = {kind = "anaglyph", eye_distance = 0.02}},
