@@ -31,7 +31,8 @@ end
 
 return {
   reader("Grasp", "forces", "Grasp Force Optimization…",
-         {load, {name = "objective", type = "string", optional = true, text = "min_sum, min_norm, min_max, max_margin or max_margin_sum"}, max_force, torque_limits},
+         {load, {name = "objective", type = "string", optional = true, suggested = {"min_sum", "min_norm", "min_max", "max_margin", "max_margin_sum"},
+                text = "what the forces minimize or maximize"}, max_force, torque_limits},
          function(grasp, options, weight)
            options.load = options.load or weight
            return grasp:contact_forces(options)
