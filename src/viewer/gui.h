@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -181,11 +182,17 @@ class Gui {
     bool on_enter = false;
     bool focus = false;
     bool password = false;
+    /// called at Tab with the text before the cursor; what it returns is inserted there
+    std::function<std::string(const std::string& before)> complete;
   };
   Edited<std::string> input(const std::string& label, const std::string& value,
                             const InputOptions& options);
   Edited<int> combo(const std::string& label, int index, std::span<const std::string> choices);
   void progress(double fraction, const std::string& text, double width);
+  /// Curves over one range of values; those without a color have that of a plot.
+  void curves(const std::string& label, std::span<const std::vector<double>> curves,
+              std::span<const Rgba> colors, std::optional<double> low, std::optional<double> high,
+              double height);
   void plot(const std::string& label, std::span<const double> values, std::optional<double> low,
             std::optional<double> high, double height);
   /// key  identifies the picture between frames: its pixels are uploaded if they have changed

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <exception>
 
 #include "clench/base/error.h"
 #include "clench/viewer/gui_state.h"
@@ -41,6 +42,34 @@ std::string_view wrappable(std::string_view text) {
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
   return text.substr(0, end);
 }
+
+// in lines of at most 40 em, within the screen
+void open_tooltip(const std::string& text) {
+  const float screen = ImGui::GetIO().DisplaySize.x - 4 * ImGui::GetStyle().WindowPadding.x;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(std::max(1.0F, std::min(40 * ImGui::GetFontSize(), screen)));
+  const std::string_view drawn = wrappable(text);
+  ImGui::TextUnformatted(drawn.data(), drawn.data() + drawn.size());
+  ImGui::PopTextWrapPos();
+}
+
+// the completion of a text that is being typed; an exception must not pass through Dear ImGui
+struct Completion {
+  const Gui::InputOptions& options;
+  std::exception_ptr problem;
+
+  static int run(ImGuiInputTextCallbackData* data) {
+    auto& self = *static_cast<Completion*>(data->UserData);
+    try {
+      const std::string before(data->Buf, static_cast<size_t>(data->CursorPos));
+      const std::string rest = self.options.complete(before);
+      data->InsertChars(data->CursorPos, rest.data(), rest.data() + rest.size());
+    } catch (const std::exception&) {
+      self.problem = std::current_exception();
+    }
+    return 0;
+  }
+};
 
 }  // namespace
 
@@ -127,16 +156,22 @@ Edited<std::string> Gui::input(const std::string& label, const std::string& valu
   if (options.on_enter) flags |= ImGuiInputTextFlags_EnterReturnsTrue;
   if (options.password) flags |= ImGuiInputTextFlags_Password;
   if (options.focus) focus_next();
+  if (options.complete) flags |= ImGuiInputTextFlags_CallbackCompletion;
+  Completion completion{options, nullptr};
+  const auto callback = options.complete ? Completion::run : nullptr;
   bool changed;
   if (options.lines > 1)
     changed = ImGui::InputTextMultiline(
         imgui_label(label), &text,
-        {-1, ImGui::GetTextLineHeight() * static_cast<float>(options.lines + 1)}, flags);
+        {-1, ImGui::GetTextLineHeight() * static_cast<float>(options.lines + 1)}, flags, callback,
+        &completion);
   else
-    changed = ImGui::InputTextWithHint(imgui_label(label), options.hint.c_str(), &text, flags);
+    changed = ImGui::InputTextWithHint(imgui_label(label), options.hint.c_str(), &text, flags,
+                                       callback, &completion);
   Edited<std::string> result = edited(text, text != value);
   result.finished = options.on_enter ? changed : result.finished;
   state_->note(label, "input");
+  if (completion.problem) std::rethrow_exception(completion.problem);
   return result;
 }
 
@@ -162,6 +197,50 @@ void Gui::progress(double fraction, const std::string& text, double width) {
   ImGui::ProgressBar(static_cast<float>(std::clamp(fraction, 0.0, 1.0)),
                      {width > 0 ? pixels(width) : -FLT_MIN, 0}, text.c_str());
   state_->note(text, "progress");
+}
+
+// where a value lies between two others; 0.5 between equal ones
+static double share_of(double value, double low, double high) {
+  const double range = high / 2 - low / 2;
+  return range > 0 ? std::clamp((value / 2 - low / 2) / range, 0.0, 1.0) : 0.5;
+}
+
+static std::pair<double, double> extremes(std::span<const std::vector<double>> lists) {
+  std::optional<double> least, most;
+  for (const std::vector<double>& list : lists)
+    for (const double value : list) {
+      least = std::min(least.value_or(value), value);
+      most = std::max(most.value_or(value), value);
+    }
+  return {least.value_or(0), most.value_or(0)};
+}
+
+void Gui::curves(const std::string& label, std::span<const std::vector<double>> curves,
+                 std::span<const Rgba> colors, std::optional<double> low,
+                 std::optional<double> high, double height) {
+  const ImVec2 size(ImGui::CalcItemWidth(), pixels(height)), pad = ImGui::GetStyle().FramePadding;
+  ImGui::Dummy(size);
+  state_->note(label, "plot");
+  if (!ImGui::IsItemVisible()) return;
+  const auto [least, most] = extremes(curves);
+  const double bottom = low.value_or(least), top = high.value_or(most);
+  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+  ImGui::RenderFrame(from, to, ImGui::GetColorU32(ImGuiCol_FrameBg));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (size_t k = 0; k < curves.size(); ++k) {
+    const std::vector<double>& curve = curves[k];
+    const double steps = curve.size() > 1 ? static_cast<double>(curve.size() - 1) : 1;
+    std::vector<ImVec2> points;
+    for (size_t i = 0; i < curve.size(); ++i) {
+      const double x = static_cast<double>(i) / steps;
+      const double y = share_of(curve[i], bottom, top);
+      points.emplace_back(from.x + pad.x + static_cast<float>(x) * (size.x - 2 * pad.x),
+                          to.y - pad.y - static_cast<float>(y) * (size.y - 2 * pad.y));
+    }
+    const ImU32 color =
+        k < colors.size() ? packed(colors[k]) : ImGui::GetColorU32(ImGuiCol_PlotLines);
+    list.AddPolyline(points.data(), static_cast<int>(points.size()), color, ImDrawFlags_None, 1.5F);
+  }
 }
 
 void Gui::plot(const std::string& label, std::span<const double> values, std::optional<double> low,
@@ -202,7 +281,7 @@ void Gui::indent(double width) { ImGui::Indent(pixels(width)); }
 void Gui::next_width(double width) { ImGui::SetNextItemWidth(pixels(width)); }
 void Gui::tooltip(const std::string& text) {
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-    ImGui::SetTooltip("%s", text.c_str());
+    open_tooltip(text), state_->note(text, "tooltip"), ImGui::EndTooltip();
 }
 void Gui::focus_next() {
   ImGui::SetKeyboardFocusHere();

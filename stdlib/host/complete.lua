@@ -98,12 +98,20 @@ local function add_members(value, calls, add)
   end
 end
 
+local scope -- names that the caller's lines see before the globals, instead of the session's locals; nil: none
+
+-- calls visit(name, value) for each name that is not global
+local function each_local(visit)
+  if not scope then return session.each(visit) end
+  for name, value in next, scope do visit(name, value) end
+end
+
 -- the value of a path such as "world.robots[1]"; nil if there is none
 local function resolve(path)
   local first, rest = match(path, "^([%a_][%w_]*)(.*)$")
   if not first then return nil end
   local value = rawget(globals, first)
-  session.each(function(name, kept) if name == first then value = kept end end)
+  each_local(function(name, kept) if name == first then value = kept end end)
   while rest ~= "" and value ~= nil do
     local key, left = match(rest, "^%.([%a_][%w_]*)(.*)$")
     if not key then
@@ -202,11 +210,7 @@ local function add_keys_of(name, owner, add)
   end
 end
 
-local complete = {}
-
---- returns the typed word, then its possible completions, sorted; or "\1" and the beginning of a file name
----@param line string  up to the cursor
-function complete.words(line)
+local function words_of(line)
   local from, brackets = open_at_end(line)
   if from then
     local typed, seen, words = sub(line, from + 1), {}, {}
@@ -240,12 +244,22 @@ function complete.words(line)
     add_keys_of(name, base and resolve(base), add)
   end
   if not mark and #words == 0 then
-    session.each(add)
+    each_local(add)
     for key in next, globals do if type(key) == "string" then add(key) end end
     for _, keyword in ipairs(keywords) do add(keyword) end
   end
   sort(words)
   return typed, unpack(words)
+end
+
+local complete = {}
+
+--- returns the typed word, then its possible completions, sorted; or "\1" and the beginning of a file name
+---@param line string  up to the cursor
+---@param names? table<string, any>  what the line sees before the globals; by default the locals of the console's session
+function complete.words(line, names)
+  scope = names
+  return words_of(line)
 end
 
 return complete

@@ -1,4 +1,5 @@
 --- `clench view`: shows a file or an empty world in a window, or draws one frame of it as a picture.
+local complete = require "clench.host.complete"
 local error_text = require "clench.error_text"
 local fail = require "clench.host.usage"
 local in_utf8 = require "clench.in_utf8"
@@ -59,6 +60,7 @@ local function run(root, folder, package, unit, strict, ...)
   open_file(session, given, said)
   local options = {session = session, size = size}
   local shown = given.screenshot and clench.view.offscreen(options) or clench.view.open(session, {size = size})
+  shown.complete = complete.words
   local ok, problem = pcall(function()
     if given.script then run_script(given.script, session, shown) end
     if given.screenshot then save_screenshot(shown, given.screenshot) else shown:wait() end
@@ -78,6 +80,7 @@ function view.beside()
   local ok, shown = pcall(clench.view.open, opened)
   if ok then
     _G.session, _G.view = opened, shown
+    shown.complete = complete.words
     return "0"
   end
   io.stderr:write("clench repl: ", printable(in_utf8(error_text(shown)), "\n"), "\n")

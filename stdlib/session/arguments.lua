@@ -6,7 +6,7 @@ local arguments = {}
 
 local types = {number = true, integer = true, string = true, boolean = true, table = true, pose = true, vec3 = true, body = true, robot = true, any = true}
 local command_fields = {name = true, label = true, shortcut = true, menu = true, section = true, enabled = true, run = true, parameters = true, reads = true, script = true, replace = true, long = true}
-local known_fields = {name = true, type = true, unit = true, min = true, max = true, default = true, optional = true, text = true, choices = true, hint = true, in_dialog = true}
+local known_fields = {name = true, type = true, unit = true, min = true, max = true, default = true, optional = true, text = true, choices = true, suggested = true, hint = true, in_dialog = true}
 
 -- "ctrl+shift+s": modifiers in this order and a key, in lower case
 local function check_shortcut(command)
@@ -50,6 +50,9 @@ function arguments.check_command(command)
     end
     if parameter.hint ~= nil and type(parameter.hint) ~= "function" then
       raise(("session:command: %s: parameter %s: hint: expected a function, got %s"):format(name, parameter.name, described(parameter.hint)))
+    end
+    if parameter.suggested ~= nil and type(parameter.suggested) ~= "table" and type(parameter.suggested) ~= "function" then
+      raise(("session:command: %s: parameter %s: suggested: expected a list or a function that returns one, got %s"):format(name, parameter.name, described(parameter.suggested)))
     end
     if not types[parameter.type] then
       raise(("session:command: %s: parameter %s: type: expected one of number, integer, string, boolean, table, pose, vec3, body, robot, any, got %s"):format(

@@ -9,11 +9,24 @@ local max_states = 10000  -- maximum number of states of one recording
 function recorded.start(session, seconds)
   recorded.stop(session)
   session.recording = session.world:record {rate = seconds and math.min(rate, max_states / math.max(seconds, 1)) or rate}
+  session.recorded_now = session.recording
 end
 
---- Ends the recording; its states are kept.
+-- adds the state in which the run ended, if it is between two states of the rate
+local function add_last(session, recording)
+  local world, times = session.world, recording.times
+  if recording.world ~= world or not times[1] or world.time <= times[#times] then return end
+  times[#times + 1] = world.time
+  recording.moments[#recording.moments + 1] = world:snapshot()
+end
+
+--- Ends the recording; its states are kept, and the last one is that in which the run ended.
 function recorded.stop(session)
-  if session.recording then session.recording:remove() end
+  local recording = session.recording
+  if not recording or recording ~= session.recorded_now then return end
+  session.recorded_now = nil
+  recording:remove()
+  add_last(session, recording)
 end
 
 --- Ends a recording that has become too long.

@@ -25,12 +25,15 @@ local function name_of(folder, i) return ("%s/autosave-%d.lua"):format(folder, i
 -- Is it the first line of a file that a viewer has written?
 local function is_head(said)
   if type(said) ~= "table" or type(said.id) ~= "string" or not said.id:find "^%d+$" or type(said.time) ~= "string" then return false end
-  return (said.path == nil or type(said.path) == "string") and (said.folder == nil or type(said.folder) == "string")
+  for _, key in ipairs {"path", "folder", "hand", "object"} do
+    if said[key] ~= nil and type(said[key]) ~= "string" then return false end
+  end
+  return true
 end
 
 --- Scripts of processes that no longer exist.
 ---@param folder string
----@return {file: string, text: string, path?: string, folder?: string, time: string, lines: string}[]
+---@return {file: string, text: string, path?: string, folder?: string, hand?: string, object?: string, time: string, lines: string}[]
 function autosave.left(folder)
   local list = {}
   for i = 1, max_files do
@@ -41,29 +44,41 @@ function autosave.left(folder)
     if ok and is_head(said) then
       local owner = process(said.id)
       if not owner or owner.start ~= said.start then
-        list[#list + 1] = {file = file, text = text, path = said.path, folder = said.folder, time = said.time, lines = lines}
+        list[#list + 1] = {file = file, text = text, path = said.path, folder = said.folder, hand = said.hand, object = said.object, time = said.time, lines = lines}
       end
     end
   end
   return list
 end
 
-local function restore(session, lines)
-  local world = assert(load('local clench = require "clench"\nlocal world\n' .. lines .. "\nreturn world", "=autosave", "t"))()
+local function named(list, name)
+  for _, thing in ipairs(list) do
+    if thing.name == name then return thing end
+  end
+end
+
+local function restore(session, args)
+  local world = assert(load('local clench = require "clench"\nlocal world\n' .. args.lines .. "\nreturn world", "=autosave", "t"))()
   history.take(session, world)
   session.path = nil
+  session.hand = named(world.robots, args.hand) or session.hand
+  session.object = named(world.objects, args.object) or session.object
 end
 
 local function add_command(session)
   if session.commands["world.restore"] then return end
-  session:command {name = "world.restore", label = "Restore", parameters = {{name = "lines", type = "string", text = "of a session's script"}},
-                   run = function(self, args) restore(self, args.lines) end, script = function(_, args) return args.lines end}
+  session:command {name = "world.restore", label = "Restore",
+                   parameters = {{name = "lines", type = "string", text = "of a session's script"},
+                                 {name = "hand", type = "string", optional = true, text = "name of the hand that was the current one"},
+                                 {name = "object", type = "string", optional = true, text = "name of the object that was the current one"}},
+                   run = restore, script = function(_, args) return args.lines end}
 end
 
 -- the script, preceded by the line that identifies its process
 local function text_of(session)
   local own = process "self" or {}
   return ("%s%s\n%s\n"):format(mark, clench.json.encode {id = own.id, start = own.start, path = session.path, folder = os.getenv "PWD",
+                                                         hand = session.hand and session.hand.name, object = session.object and session.object.name,
                                                          time = os.date "%Y-%m-%d %H:%M"}, session:script())
 end
 
@@ -115,7 +130,7 @@ local function drop(offer)
 end
 
 local function take(view, offer)
-  local ok, problem = pcall(view.session.run, view.session, "world.restore", {lines = offer.lines})
+  local ok, problem = pcall(view.session.run, view.session, "world.restore", {lines = offer.lines, hand = offer.hand, object = offer.object})
   if not ok then
     view.restore_error = error_text(problem)
     return

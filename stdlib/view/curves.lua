@@ -4,7 +4,7 @@ local curves = {}
 local max_points = 300  -- of a curve
 
 --- The curves in the order of the panel: key and title.
-curves.list = {{"epsilon", "epsilon"}, {"force", "sum of contact forces [N]"}, {"contacts", "contacts"}, {"effort", "largest motor effort [N m or N]"}}
+curves.list = {{"epsilon", "epsilon"}, {"force", "sum of contact forces [N]"}, {"contacts", "contacts"}, {"effort", "motors, largest [N m or N]"}}
 
 local function add(list, value)
   list[#list + 1] = value
@@ -23,17 +23,28 @@ local function largest(values)
   return largest
 end
 
+-- the effort of each motor of a hand; of another hand nothing is kept
+local function add_efforts(all, hand)
+  local efforts = hand.dof_efforts
+  if all.hand ~= hand or #all.efforts ~= #efforts then
+    all.hand, all.efforts = hand, {}
+    for i = 1, #efforts do all.efforts[i] = {} end
+  end
+  for i, effort in ipairs(efforts) do add(all.efforts[i], effort) end
+  add(all.effort, largest(efforts))
+end
+
 --- Adds the values of the present state, once after each change.
 ---@param view table  whose panel Grasp Quality has measured the grasp
 function curves.sample(view)
-  view.curves = view.curves or {epsilon = {}, force = {}, contacts = {}, effort = {}}
+  view.curves = view.curves or {epsilon = {}, force = {}, contacts = {}, effort = {}, efforts = {}}
   local quality, hand = view.quality, view.session.hand
   if not (quality and hand) or view.replay or view.plotted == view.stamp then return end
   view.plotted = view.stamp
   add(view.curves.epsilon, quality.measures.epsilon or 0)
   add(view.curves.force, total_force(quality.contacts))
   add(view.curves.contacts, #quality.contacts)
-  add(view.curves.effort, largest(hand.dof_efforts))
+  add_efforts(view.curves, hand)
 end
 
 return curves

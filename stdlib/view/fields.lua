@@ -37,8 +37,14 @@ end
 
 -- the choices of a parameter; nil if its value is typed
 local function choices_of(view, parameter)
-  local choices = parameter.choices or (parameter.type == "robot" or parameter.type == "body") and names_of(view.session, parameter)
+  local choices = parameter.choices or parameter.suggested or (parameter.type == "robot" or parameter.type == "body") and names_of(view.session, parameter)
+  if type(choices) == "function" then choices = choices(view.session) end
   return choices and #choices > 0 and choices or nil
+end
+
+-- is it set by a checkbox?
+local function is_checked(parameter, choices)
+  return parameter.type == "boolean" or choices and type(choices[1]) == "boolean"
 end
 
 -- an optional value can be left to the command
@@ -50,7 +56,7 @@ local function draw_choice(ui, state, parameter, choices)
   for i, value in ipairs(values) do
     if value == (current or false) then index = i end
   end
-  if index == 0 and current then index, values[#values + 1], labels[#labels + 1] = #values + 1, current, current end  -- a link
+  if index == 0 and current then index, values[#values + 1], labels[#labels + 1] = #values + 1, current, shown(current) end  -- a link, or a value of a script
   local chosen, changed = ui:combo("##" .. parameter.name, index, labels)
   if changed then state[parameter.name] = values[chosen] or nil end
 end
@@ -100,8 +106,9 @@ local function draw_value(view, ui, state, parameter)
   local choices = choices_of(view, parameter)
   if parameter.type == "pose" then return draw_pose(view, ui, state, parameter) end
   ui:width(width * view.scale)
-  if choices then return draw_choice(ui, state, parameter, choices) end
-  if parameter.type ~= "boolean" then return draw_text(ui, state, parameter) end
+  local checked = is_checked(parameter, choices)
+  if choices and not checked then return draw_choice(ui, state, parameter, choices) end
+  if not checked then return draw_text(ui, state, parameter) end
   local value, changed = ui:checkbox("##" .. name, state[name] == true)
   if changed then state[name] = value end
 end

@@ -166,6 +166,39 @@ test("work left by an ended process is offered and restored", function(t)
   os.remove(folder)
 end)
 
+test("current hand and object are restored, too", function(t)
+  local session, view, path = open()
+  local folder = new_folder()
+  view.kept = {autosave.keep(view, folder)}
+  session:run("world.import_robot", {path = "models/hands/parallel_jaw/parallel_jaw.cfg", place = "free"})
+  session:run("world.import_object", {path = "models/objects/box.iv", place = "free"})
+  session:run("grasp.select_hand", {hand = session.world.robots[1].name})
+  local first, second = session.world.robots[1].name, session.world.robots[2].name
+  local names = {}
+  for i, hand in ipairs {first, second} do
+    session:run("grasp.select_hand", {hand = hand})
+    session:run("grasp.select_object", {object = session.world.objects[3 - i].name})
+    names[i] = {hand, session.object.name}
+    view:flush()
+    local name = folder .. "/autosave-1.lua"
+    local text = text_at(name)
+    clench.files.save_text(folder .. "/autosave-2.lua", (text:gsub('"start":"%d+"', '"start":"1"')))
+    local other = clench.session()
+    other:run "world.new"
+    local next_view = clench.view.offscreen {session = other, size = {640, 480}}
+    next_view.kept = {autosave.keep(next_view, folder)}
+    is_shown(next_view, "Restore")
+    next_view:click_label "Restore"
+    t.equal(other.world:hash(), session.world:hash())
+    t.equal({other.hand.name, other.object.name}, names[i])
+    next_view:close()
+  end
+  t.ok(names[1][1] ~= names[2][1] and names[1][2] ~= names[2][2])
+  view:close()
+  os.remove(path)
+  os.execute(("rm -r '%s'"):format(folder))
+end)
+
 test("work of a process that has ended is offered even while its parent has not noticed", function(t)
   local folder = new_folder()
   os.execute(("mkdir '%s'"):format(folder))
@@ -232,7 +265,7 @@ end)
 test("unsaved work is stored beside folders and damaged files that have its names", function(t)
   local folder = new_folder()
   os.execute(("mkdir -p '%s/autosave-1.lua'"):format(folder))
-  local heads = {'{"id":"","start":"1","time":"x"}', '{"id":5,"start":"1","time":"x"}', '{"id":"999999999","start":"1","time":"x","path":[]}', '[1]', '5', '{'}
+  local heads = {'{"id":"","start":"1","time":"x"}', '{"id":5,"start":"1","time":"x"}', '{"id":"999999999","start":"1","time":"x","path":[]}', '{"id":"999999999","start":"1","time":"x","hand":7}', '[1]', '5', '{'}
   for i, head in ipairs(heads) do
     clench.files.save_text(("%s/autosave-%d.lua"):format(folder, i + 1), "-- autosave " .. head .. "\n\n\nlines\n")
   end

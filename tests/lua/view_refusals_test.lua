@@ -70,6 +70,7 @@ test("widgets with empty labels and enormous numbers end neither a frame nor the
     ui:circle(1e308, -1e308, 1e308, {})
     ui:line({1e308, 1, 2, -1e308}, {width = 1e30})
     ui:plot("p", {1e308, -1e308}, {height = 1e30})
+    ui:curves("c", {{1e308, -1e308}, {}, {1}}, {height = 1e30, min = -1e308})
   end)
   t.fails(function() ui:input {kind = "wheel", y = 1e308} end, "x and y: expected -1e6 to 1e6 pixels, got 0 and 1e+308")
   draw(function() ui:button "go" end)

@@ -45,7 +45,13 @@ test("dynamics that play are recorded: one step of undo, and the script leads to
   local after = session.world:hash()
   local times = session.recording.times
   t.close(times[1], 0, 1e-12)
-  for i = 2, #times do t.close(times[i] - times[i - 1], 1 / 30, session.world.time_step + 1e-9) end
+  for i = 2, #times - 1 do t.close(times[i] - times[i - 1], 1 / 30, session.world.time_step + 1e-9) end
+  -- the last state is that at Pause
+  t.equal(times[#times], session.world.time)
+  t.ok(times[#times] > times[#times - 1])
+  local last_state = session.world:clone()
+  last_state:restore(session.recording.moments[#times])
+  t.equal(last_state:hash(), after)
   t.equal(load(session:script() .. " return world")():hash(), after)
   view:key "ctrl+z"
   t.equal(session.world:hash(), before)
@@ -150,11 +156,14 @@ test("a recorded run is saved as a film; without one there is nothing to save", 
   view:close()
 end)
 
-test("a run that is too short to be recorded, and one that is slower than real time, are described as such", function(t)
+test("a run that is shorter than the interval of states can be replayed, and one that is slower than real time is described as such", function(t)
   local session, view = open()
   item(view, "Runs of the dynamics are recorded, and can be replayed here.")
   run(session, view, "dynamics.run", {seconds = 0.01})
-  item(view, "The last run was too short to be recorded: states are stored 30 times per simulated second.")
+  t.equal(#session.recording.times, 2)
+  t.close(session.recording.times[2] - session.recording.times[1], 0.01, 1e-9)
+  item(view, "Replay")
+  t.equal(item(view, "|<").enabled, true)
   view:click_label "Play Dynamics"
   session.playing.began = loop.time() - 100
   loop.run(0.03)
@@ -185,10 +194,25 @@ test("curves of quality, forces and motor efforts have a point per change, of an
   t.equal(view.curves.epsilon[count], view.quality.measures.epsilon or 0)
   view:frame()
   t.equal(#view.curves.effort, count)
+  -- a curve per motor; the largest of them is that of the curve before
+  t.equal(#view.curves.efforts, #hand.dof_efforts)
+  for i, effort in ipairs(hand.dof_efforts) do
+    t.equal(#view.curves.efforts[i], count)
+    t.equal(view.curves.efforts[i][count], effort)
+  end
   view:click_label "Plots"
   local plots = 0
   for _, widget in ipairs(view:items()) do plots = plots + (widget.kind == "plot" and 1 or 0) end
   t.equal(plots, 4)
+  -- each curve has its own color, which its name in the legend has, too
+  local all = view:screenshot {}
+  local motor = item(view, ("%.3g  dof2 (finger 1: joints 2, 3)"):format(view.curves.efforts[2][count]))
+  view:click(motor.x + 5, motor.y + motor.height / 2)
+  t.equal(view.shown_motor, 2)
+  view:frame()
+  t.ok(view:screenshot {} ~= all)
+  view:click(motor.x + 5, motor.y + motor.height / 2)
+  t.equal(view.shown_motor, nil)
   session:open("worlds/parallel_jaw_cube.wld", {root = "."})
   view:frame()
   t.ok(#view.curves.effort <= 1, #view.curves.effort)

@@ -75,6 +75,7 @@ std::span<const Class* const> all_classes() {
 #ifdef CLENCH_VIEWER
       &ui_class,
       &ui_widgets_class,
+      &ui_plots_class,
       &ui_containers_class,
 #endif
   };

@@ -119,7 +119,7 @@ return {
      end)
    end},
   setter("mass", "Mass…", {type = "number", min = 0, unit = "kg", text = "mass"}),
-  setter("material", "Material…", {type = "string", text = "name of a material"}),
+  setter("material", "Material…", {type = "string", suggested = function(session) return session.world.materials end, text = "name of a material"}),
   setter("transparency", "Transparency…", {type = "number", min = 0, max = 1, text = "0: opaque, 1: invisible"}),
   setter("color", "Color…", {type = "table", text = "red, green and blue, each from 0 to 1"}),
   setter("kind", "Dynamic or Static…", {type = "string", choices = {"object", "obstacle"}, text = "object: it moves in simulations and can be grasped; obstacle: it stays where it is"}),

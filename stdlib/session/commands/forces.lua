@@ -32,7 +32,8 @@ end
 
 return {
   reader("Grasp", "forces", "Grasp Force Optimization…",
-         {load, {name = "objective", type = "string", optional = true, text = "min_sum, min_norm, min_max, max_margin or max_margin_sum"}, max_force, torque_limits,
+         {load, {name = "objective", type = "string", optional = true, suggested = {"min_sum", "min_norm", "min_max", "max_margin", "max_margin_sum"},
+                 text = "what the forces minimize or maximize"}, max_force, torque_limits,
           {name = "total_force", type = "number", min = 0, unit = "N", optional = true, text = "prescribed sum of the normal forces"},
           {name = "total_torque", type = "number", min = 0, optional = true, text = "prescribed sum of the efforts of all motors, closing [N m or N]"},
           {name = "unilateral", type = "boolean", optional = true, text = "true: motors do not open"},

@@ -91,7 +91,7 @@ return {
   caller("virtual_contacts", "Virtual Contacts…", "find_virtual_contacts", nil,
          {{name = "count_per_link", type = "integer", min = 1, max = 100, optional = true, text = "number of contacts on each link"},
           {name = "palm", type = "boolean", optional = true, text = "true: also on the palm"},
-          {name = "object_material", type = "string", optional = true, text = "material to be grasped"}}, "Grasp/Virtual Contacts"),
+          {name = "object_material", type = "string", suggested = function(session) return session.world.materials end, optional = true, text = "material to be grasped"}}, "Grasp/Virtual Contacts"),
   {name = "grasp.save_posture", label = "Save Posture", menu = "Grasp/Posture", section = 4, shortcut = "s", enabled = conditions.hand, reads = true, parameters = {hand},
    run = function(session, args)
      local robot = arguments.find_robot(session, args.hand)

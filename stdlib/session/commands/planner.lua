@@ -21,12 +21,37 @@ local function choices_of(kind)
   return choices
 end
 
+local known_energies  -- listed on first use
+
+-- the energies of which hand and object are the required options
+local function energies()
+  if known_energies then return known_energies end
+  local names = {}
+  for name in pairs(clench.energy) do
+    local required = {}
+    for _, field in ipairs(descriptions.of("clench.energy." .. name).parameters[1].fields) do
+      if not field.optional then required[#required + 1] = field.name end
+    end
+    if table.concat(required, " ") == "hand object" then names[#names + 1] = name end
+  end
+  table.sort(names)
+  known_energies = names
+  return names
+end
+
+-- values that a dialog suggests for an option which may also be a table or a function; nil: none are known
+local function suggested_for(name, kind)
+  if kind:find "|" and ("|" .. kind .. "|"):find("|boolean|", 1, true) then return {false, true} end
+  if kind:find("string|energy", 1, true) then return energies end
+  if name == "schedule" then return {"default", "loop", "modified", "strict", "online"} end
+end
+
 -- the parameter of a command for an option of a planner; nil for functions and for options that the session sets
 local function parameter_of(field)
   local name, kind = field.name, field.type
   if from_session[name] or name:find("%.") or kind:find "^fun" then return nil end
   local choices = kind:find '^"' and choices_of(kind)
-  return {name = name, type = choices and "string" or plain[kind] and kind or kind:find "%[%]$" and "table" or "any", choices = choices, unit = field.unit,
+  return {name = name, type = choices and "string" or plain[kind] and kind or kind:find "%[%]$" and "table" or "any", choices = choices, suggested = not choices and suggested_for(name, kind) or nil, unit = field.unit,
           min = field.min, max = field.max, default = type(field.default) ~= "table" and field.default or nil, optional = true, text = field.text}
 end
 

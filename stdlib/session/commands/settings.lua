@@ -2,11 +2,13 @@
 local conditions = require "clench.session.conditions"
 local script = require "clench.session.script"
 
+local function materials(session) return session.world.materials end
+
 local fields = {"time_step", "gravity", "contact_threshold"}
 
 return {
   {name = "world.friction", label = "Friction…", menu = "File", section = 4, enabled = conditions.world,
-   parameters = {{name = "a", type = "string", text = "a material"}, {name = "b", type = "string", text = "the other material"},
+   parameters = {{name = "a", type = "string", suggested = materials, text = "a material"}, {name = "b", type = "string", suggested = materials, text = "the other material"},
                  {name = "mu", type = "number", min = 0, max = 1000, text = "coefficient, static and kinetic unless `kinetic` is given"},
                  {name = "kinetic", type = "number", min = 0, max = 1000, optional = true, text = "kinetic coefficient"}},
    run = function(session, args) session.world:set_friction(args.a, args.b, {static = args.mu, kinetic = args.kinetic or args.mu}) end,

@@ -1,13 +1,22 @@
---- The console: an input line of Lua, and the output of it and of commands; Up and Down recall lines. `session`, `world`, `hand`, `object` and `view` are defined.
-local function environment(view)
+--- The console: an input line of Lua, and the output of it and of commands; Up and Down recall lines, Tab completes names. `session`, `world`, `hand`,
+--- `object` and `view` are defined.
+local completion = require "clench.view.completion"
+
+-- what a line sees before the globals of Lua
+local function names_of(view)
   local session = view.session
+  local names = {session = session, world = session.world, hand = session.hand, object = session.object, view = view}
+  for name, value in pairs(view.globals) do
+    if names[name] == nil then names[name] = value end
+  end
+  return names
+end
+
+local function environment(view)
   return setmetatable({}, {__index = function(_, name)
-    if name == "session" then return session end
-    if name == "world" then return session.world end
-    if name == "hand" then return session.hand end
-    if name == "object" then return session.object end
-    if name == "view" then return view end
-    return view.globals[name] == nil and _G[name] or view.globals[name]
+    local value = names_of(view)[name]
+    if value == nil then return _G[name] end
+    return value
   end, __newindex = function(_, name, value) view.globals[name] = value end})
 end
 
@@ -74,7 +83,8 @@ local function draw_input(view, ui)
   local text, _, entered
   ui:id("line " .. history.version, function(ui)
     ui:width(-1)
-    text, _, entered = ui:text_input("##console", view.console_text, {hint = "Lua", on_enter = true, focus = history.focus})
+    text, _, entered = ui:text_input("##console", view.console_text, {hint = "Lua", on_enter = true, focus = history.focus,
+                                                                      complete = function(before) return completion.of(view, before, names_of(view)) end})
   end)
   history.focus, view.console_text = false, text
   if entered and text ~= "" then

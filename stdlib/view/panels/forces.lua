@@ -1,4 +1,5 @@
 --- Force optimization and stability analysis of the current grasp: forces for a load, the largest load, torques of the motors, and the loads that they hold.
+local dof_labels = require "clench.view.dof_labels"
 local edit = require "clench.view.edit"
 local results = require "clench.view.force_results"
 local gray = {0.5, 0.5, 0.5}
@@ -72,9 +73,9 @@ local function draw_torques(view, ui, state)
     state.torques = on and {} or nil
     for i = 1, on and #hand.dofs or 0 do state.torques[i] = 0 end
   end
-  for i, name in ipairs(state.torques and hand.dof_names or {}) do
+  for i, label in ipairs(state.torques and dof_labels.of(hand) or {}) do
     ui:width(120 * view.scale)
-    number(view, ui, ("%s##torque%d"):format(name, i), state.torques, i, {speed = 0.01, format = "%.4g"})
+    number(view, ui, ("%s##torque%d"):format(label.text, i), state.torques, i, {speed = 0.01, format = "%.4g"})
   end
 end
 

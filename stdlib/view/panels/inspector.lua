@@ -1,4 +1,5 @@
 --- The selection: pose, DOFs and body properties, in the units of the user. A number is dragged to change it, or typed after a double click.
+local dof_labels = require "clench.view.dof_labels"
 local facts = require "clench.view.world_facts"
 local properties = require "clench.view.properties"
 local units = require "clench.view.units"
@@ -26,31 +27,30 @@ local function draw_pose(ui, view, thing)
   if finished then view.session:end_gesture() end
 end
 
--- is a DOF an angle? Its first joint determines this
-local function unit_of(robot, dof)
-  for _, chain in ipairs(robot.chains) do
-    for _, joint in ipairs(chain.joints) do
-      if joint.dof == dof then return joint.kind == "prismatic" and "m" or "rad" end
-    end
+local function draw_dof(ui, view, robot, i, label, value, limits)
+  local factor, _, format = units.of(view, label.unit)
+  ui:width(-130 * view.scale)
+  local set, changed, finished = ui:slider(("%s##dof%d"):format(label.short, i), value * factor, {min = limits[1] * factor, max = limits[2] * factor, format = format})
+  ui:tooltip(label.text)
+  if changed then
+    begin(view, "Set DOFs of " .. robot.name)
+    local goal = {table.unpack(robot.dofs)}
+    goal[i] = math.max(limits[1], math.min(limits[2], set / factor))
+    robot:move_dofs(goal)
+    view.session:emit("changed", {gesture = true})
   end
-  return "rad"
+  if finished then view.session:end_gesture() end
 end
 
+-- the DOFs, each finger below its number
 local function draw_dofs(ui, view, robot)
-  local dofs, limits, names = robot.dofs, robot.dof_limits, robot.dof_names
-  for i = 1, #dofs do
-    local factor, _, format = units.of(view, unit_of(robot, i))
-    ui:width(-90 * view.scale)
-    local value, changed, finished = ui:slider(names[i] .. "##dof" .. i, dofs[i] * factor,
-                                               {min = limits[i][1] * factor, max = limits[i][2] * factor, format = format})
-    if changed then
-      begin(view, "Set DOFs of " .. robot.name)
-      local goal = {table.unpack(dofs)}
-      goal[i] = math.max(limits[i][1], math.min(limits[i][2], value / factor))
-      robot:move_dofs(goal)
-      view.session:emit("changed", {gesture = true})
+  local dofs, limits, finger = robot.dofs, robot.dof_limits, ""
+  for i, label in ipairs(dof_labels.of(robot)) do
+    if label.finger ~= finger then
+      finger = label.finger
+      ui:text(finger, {color = {0.5, 0.5, 0.5}})
     end
-    if finished then view.session:end_gesture() end
+    draw_dof(ui, view, robot, i, label, dofs[i], limits[i])
   end
 end
 

@@ -68,8 +68,6 @@ local function empty_text(session)
     local speed = speed_of(playing)
     return ("recording, %.3f s%s"):format(session.world.time, speed and speed < 0.9 * playing.speed and (", at %.2g of real time"):format(speed) or "")
   end
-  local last = session.recording
-  if last and last.world == session.world and last.times[1] then return "The last run was too short to be recorded: states are stored 30 times per simulated second." end
   return "Runs of the dynamics are recorded, and can be replayed here."
 end
 

@@ -91,6 +91,16 @@ int ui_number(lua_State* L) {
   return push_edited(L, gui.number(label, value, step, format));
 }
 
+// calls the function at the index
+std::string completion_of(lua_State* L, int function, const std::string& before) {
+  lua_pushvalue(L, function);
+  push(L, before);
+  call_script(L, 1, 1, "ui:text_input");
+  const std::string rest = lua_isnil(L, -1) ? "" : read_string(L, -1, {L, {}, "complete"});
+  lua_pop(L, 1);
+  return rest;
+}
+
 int ui_text_input(lua_State* L) {
   Gui& gui = framed_gui(L);
   const std::string label = check_string(L, 2, "label");
@@ -102,6 +112,10 @@ int ui_text_input(lua_State* L) {
   input.on_enter = options.boolean("on_enter", false);
   input.focus = options.boolean("focus", false);
   input.password = options.boolean("password", false);
+  if (options.push_function("complete"))
+    input.complete = [L, function = lua_gettop(L)](const std::string& before) {
+      return completion_of(L, function, before);
+    };
   options.done();
   return push_edited(L, gui.input(label, value, input));
 }
@@ -122,20 +136,6 @@ int ui_progress(lua_State* L) {
   const double fraction = check_number(L, 2, "fraction");
   gui.progress(fraction, given(L, 3) ? check_string(L, 3, "text") : "",
                given(L, 4) ? check_number(L, 4, "width") : 0);
-  return 0;
-}
-
-int ui_plot(lua_State* L) {
-  Gui& gui = framed_gui(L);
-  const std::string label = check_string(L, 2, "label");
-  const std::vector<double> values = check_numbers(L, 3, "values");
-  Table options(L, 4);
-  std::optional<double> low, high;
-  if (options.has("min")) low = options.number("min");
-  if (options.has("max")) high = options.number("max");
-  const double height = options.number("height", 80);
-  options.done();
-  gui.plot(label, values, low, high, height);
   return 0;
 }
 
@@ -326,6 +326,7 @@ A text that is typed.
 @option on_enter? boolean = false  true: `finished` at Enter
 @option focus? boolean = false  true: takes the keyboard now
 @option password? boolean = false  true: hides the text
+@option complete? fun(before: string): string?  called at Tab with the text before the cursor; what it returns is inserted there
 @return string value
 @return boolean changed
 @return boolean finished
@@ -350,17 +351,6 @@ A progress bar.
 @effect edits
 > ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:progress(0.5, "half") end) end)
 > ui.items[#ui.items].label  --> half)"},
-    {"plot", guarded<ui_plot>, R"(
-A curve of numbers.
-@param label string  text beside it
-@param values number[]  at equal distances
-@param options? table  range and size
-@option min? number  lower end, by default the smallest value
-@option max? number  upper end, by default the largest value
-@option height? number [pixels] = 80  height
-@effect edits
-> ui:frame(0.01, function(ui) ui:window("w", {width = 300, height = 200}, function() ui:plot("p", {1, 2, 3}, {height = 30}) end) end)
-> ui.items[#ui.items].kind  --> plot)"},
     {"image", guarded<ui_image>, R"(
 A picture.
 @param key string  identifies it from frame to frame
@@ -485,6 +475,6 @@ const Class ui_widgets_class{.name = "ui_widgets",
                              .variable = "ui",
                              .doc = "Widgets of a user interface, and lines over its picture.",
                              .methods = ui_widget_methods,
-                             .parent = &ui_containers_class};
+                             .parent = &ui_plots_class};
 
 }  // namespace clench

@@ -13,7 +13,7 @@ struct UiHandle {
   bool in_frame = false;
 };
 
-extern const Class ui_class, ui_widgets_class, ui_containers_class;
+extern const Class ui_class, ui_widgets_class, ui_plots_class, ui_containers_class;
 extern const Library ui_library;
 
 template <>
