@@ -1130,7 +1130,7 @@ function ui:take_dropped() end
 function ui:key_down(key) end
 
 ---Widgets of a user interface, and lines over its picture.
----@class ui_widgets: ui_containers
+---@class ui_widgets: ui_plots
 local ui_widgets = {}
 
 ---A text.
@@ -1193,7 +1193,7 @@ function ui_widgets:number(label, value, options) end
 ---A text that is typed.
 ---@param label string # text beside it
 ---@param value string # present text
----@param options? {hint?: string, lines?: integer, on_enter?: boolean, focus?: boolean, password?: boolean} # behavior and look
+---@param options? {hint?: string, lines?: integer, on_enter?: boolean, focus?: boolean, password?: boolean, complete?: fun(before: string): string?} # behavior and look
 ---@return string value
 ---@return boolean changed
 ---@return boolean finished
@@ -1212,12 +1212,6 @@ function ui_widgets:combo(label, index, choices) end
 ---@param text? string # on the bar
 ---@param width? number # all that is left by default
 function ui_widgets:progress(fraction, text, width) end
-
----A curve of numbers.
----@param label string # text beside it
----@param values number[] # at equal distances
----@param options? {min?: number, max?: number, height?: number} # range and size
-function ui_widgets:plot(label, values, options) end
 
 ---A picture.
 ---@param key string # identifies it from frame to frame
@@ -1292,6 +1286,22 @@ function ui_widgets:circle(x, y, radius, options) end
 ---@param text string # UTF-8
 ---@param options? {color?: number[]} # look
 function ui_widgets:label(x, y, text, options) end
+
+---Curves of numbers in a user interface.
+---@class ui_plots: ui_containers
+local ui_plots = {}
+
+---A curve of numbers.
+---@param label string # text beside it
+---@param values number[] # at equal distances
+---@param options? {min?: number, max?: number, height?: number} # range and size
+function ui_plots:plot(label, values, options) end
+
+---Several curves of numbers over one range.
+---@param label string # identifies it
+---@param values number[][] # of each curve, at equal distances
+---@param options? {min?: number, max?: number, height?: number, colors?: number[][]} # range and look
+function ui_plots:curves(label, values, options) end
 
 ---Windows, menus, trees, tables and other parts of a user interface that hold widgets.
 ---@class ui_containers
