@@ -16,6 +16,7 @@ local loop_task = require "clench.loop_task"
 local palette = require "clench.view.palette"
 local preferences = require "clench.view.preferences"
 local printable = require "clench.printable"
+local priority = require "clench.view.priority"
 local raise = require "clench.raise"
 local replay = require "clench.view.replay"
 local splitters = require "clench.view.splitters"
@@ -319,6 +320,7 @@ return function(options)
   view.panels = layout.panels()
   view:home()
   lend_camera(view)
+  view.kept[1] = priority.take()
   for _, event in ipairs {"changed", "progress", "result"} do
     view.subscriptions[#view.subscriptions + 1] = session:subscribe(event, function() view:changed() end)
   end
@@ -330,7 +332,7 @@ return function(options)
   view.subscriptions[#view.subscriptions + 1] = session:subscribe("diagnostic", function(d) status.log(view, d) end)
   if options.window then
     local settings, state = user_files.settings(), user_files.state()
-    view.kept = {preferences.keep(view, settings and settings .. "/viewer.json"), autosave.keep(view, state)}
+    view.kept[2], view.kept[3] = preferences.keep(view, settings and settings .. "/viewer.json"), autosave.keep(view, state)
     follow(view)
   end
   return view

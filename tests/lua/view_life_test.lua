@@ -29,6 +29,29 @@ local function is_shown(view, label)
   return false
 end
 
+-- first: other tests leave views open
+test("threads that start while a view is open have a lower priority, unless the user has chosen one", function(t)
+  local nice = clench.parallel.nice
+  local before = nice(0)
+  local session, first = open()
+  local levels = {nice()}
+  local second = clench.view.offscreen {session = session, size = {64, 48}}
+  first:close()
+  levels[2] = nice()
+  second:close()
+  levels[3] = nice()
+  t.equal(levels, {10, 10, 0})
+  nice(5)
+  clench.view.offscreen({session = session, size = {64, 48}}):close()
+  t.equal(nice(), 5)
+  nice(0)
+  local view = clench.view.offscreen {session = session, size = {64, 48}}
+  nice(3)
+  view:close()
+  t.equal(nice(), 3)
+  nice(before)
+end)
+
 test("New asks only about unsaved changes", function(t)
   local session, view, path = open()
   local world = session.world
