@@ -11,21 +11,31 @@ local function add(list, seen, path, typed)
   seen[path], list[#list + 1] = true, path
 end
 
+-- the models and worlds that come with Clench; without their folder, the reason is shown once, and recent files remain
+local function catalog_of(view)
+  if not view.catalog then
+    local ok, found = pcall(clench.catalog)
+    view.catalog = ok and found or {}
+    if not ok then view:fail(found) end
+  end
+  return view.catalog
+end
+
 --- The files for a command whose paths contain a text; all files if the text is one of them.
 ---@param command table  of the session
 ---@param typed string
 ---@return string[] paths
 function paths.choices(view, command, typed)
   local list, seen = {}, {}
-  view.catalog = view.catalog or clench.catalog()
+  local catalog = catalog_of(view)
   for _, kind in ipairs(kinds[command.name] or {}) do
-    for _, path in ipairs(view.catalog[kind] or {}) do
+    for _, path in ipairs(catalog[kind] or {}) do
       if path == typed then typed = "" end
     end
   end
   for _, path in ipairs(command.name == "world.open" and view.recent or {}) do add(list, seen, path, typed:lower()) end
   for _, kind in ipairs(kinds[command.name] or {}) do
-    for _, path in ipairs(view.catalog[kind] or {}) do add(list, seen, path, typed:lower()) end
+    for _, path in ipairs(catalog[kind] or {}) do add(list, seen, path, typed:lower()) end
   end
   return list
 end

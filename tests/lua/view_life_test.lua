@@ -427,3 +427,22 @@ test("the files of an import are chosen from a list, which follows the text, and
   t.equal(paths.choices(view, session.commands["world.save_as"], ""), {})
   view:close()
 end)
+
+test("without a folder of models the reason is shown once, and recent files can be chosen", function(t)
+  local script = test.path ".lua"
+  clench.files.save_text(script, [[
+    local clench, paths = require "clench", require "clench.view.paths"
+    local view = clench.view.offscreen {session = clench.session(), size = {64, 48}}
+    view.recent = {"one.wld", "two.wld"}
+    local open = view.session.commands["world.open"]
+    print(table.concat(paths.choices(view, open, ""), " "), table.concat(paths.choices(view, open, "two"), " "))
+    for _, line in ipairs(view.lines) do print(line.text) end
+  ]])
+  local program = test.path()
+  local pipe <close> = io.popen(("cp \"$(readlink /proc/$PPID/exe)\" '%s' && env -u CLENCH_MODELS '%s' -q run '%s'"):format(program, program, script))
+  local lines = {}
+  for line in pipe:lines() do lines[#lines + 1] = line end
+  t.equal(#lines, 2)
+  t.equal(lines[1], "one.wld two.wld\ttwo.wld")
+  t.ok(lines[2]:find("clench.catalog: no folder", 1, true), lines[2])
+end)
