@@ -300,6 +300,7 @@ function Viewer:close()
   for _, unsubscribe in ipairs(self.subscriptions) do unsubscribe() end
   if self.timer then self.timer:remove() end
   for _, kept in ipairs(self.kept) do kept.finish() end
+  priority.give_back()
   self.ui:close()
 end
 
@@ -320,7 +321,7 @@ return function(options)
   view.panels = layout.panels()
   view:home()
   lend_camera(view)
-  view.kept[1] = priority.take()
+  priority.take()
   for _, event in ipairs {"changed", "progress", "result"} do
     view.subscriptions[#view.subscriptions + 1] = session:subscribe(event, function() view:changed() end)
   end
@@ -332,7 +333,7 @@ return function(options)
   view.subscriptions[#view.subscriptions + 1] = session:subscribe("diagnostic", function(d) status.log(view, d) end)
   if options.window then
     local settings, state = user_files.settings(), user_files.state()
-    view.kept[2], view.kept[3] = preferences.keep(view, settings and settings .. "/viewer.json"), autosave.keep(view, state)
+    view.kept = {preferences.keep(view, settings and settings .. "/viewer.json"), autosave.keep(view, state)}
     follow(view)
   end
   return view
