@@ -1099,7 +1099,7 @@ function ui:hash() end
 ---@param event {kind?: "move"|"button"|"wheel"|"key"|"text"|"close"|"drop", x?: number, y?: number, code?: integer, down?: boolean, text?: string} # the synthetic event
 function ui:input(event) end
 
----Discards the kept pictures: the next frame draws all of them anew, including what panels cover.
+---Draws the last frame again: its picture anew, including what panels cover. Images of widgets are uploaded anew in the next frame.
 function ui:redraw() end
 
 ---Collects input of the window.

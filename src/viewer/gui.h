@@ -105,7 +105,9 @@ class Gui {
   /// Ends the frame, in any case.
   /// throws  Error if the driver fails to draw the picture
   void end();
-  /// The next frame draws all of its pictures anew, including what panels cover.
+  /// Draws the last frame again, all of its picture anew, including what panels cover; images of
+  /// widgets are uploaded anew in the next frame. Within a frame, that applies to this one.
+  /// throws  Error if the driver fails
   void redraw();
   int pictures_drawn() const;  ///< number of panes that have been drawn
   /// Continues the frames of this interface after frames of others.

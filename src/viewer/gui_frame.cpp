@@ -121,9 +121,7 @@ void Gui::end() {
   } catch (const Error&) {
     problem = std::current_exception();
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, s.screen->framebuffer());
-  glViewport(0, 0, s.screen->width(), s.screen->height());
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  s.lay_interface();
   s.screen->present();
   std::erase_if(s.images, [&](const auto& image) {
     return s.frame - image.second.frame > max_textures_idle;
@@ -131,6 +129,22 @@ void Gui::end() {
   s.last_items.swap(s.items);
   s.entered.reset();
   if (problem) std::rethrow_exception(problem);
+}
+
+void Gui::State::lay_interface() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, screen->framebuffer());
+  glViewport(0, 0, screen->width(), screen->height());
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Gui::redraw() {
+  State& s = *state_;
+  const std::shared_ptr<void> entered = s.screen->enter();
+  s.use();
+  s.discard_pictures();
+  if (!ImGui::GetDrawData()) return;  // within a frame, or before the first one
+  s.lay_picture();
+  s.lay_interface();
 }
 
 Picture Gui::read() {

@@ -119,10 +119,10 @@ void Gui::State::lay_picture() {
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-void Gui::redraw() {
-  state_->kept.panes.clear();
-  for (auto& [key, image] : state_->images) image.pixels.clear();
-  state_->draw_all = true;
+void Gui::State::discard_pictures() {
+  kept.panes.clear();
+  for (auto& [key, image] : images) image.pixels.clear();
+  draw_all = true;
 }
 
 int Gui::pictures_drawn() const { return state_->pictures_drawn; }

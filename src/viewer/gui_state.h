@@ -77,6 +77,10 @@ struct Gui::State {
   /// Copies the picture, drawn if it has changed, to the screen.
   /// throws  Error if the driver fails
   void lay_picture();
+  /// Draws the widgets of the last frame over the picture.
+  void lay_interface() const;
+  /// Nothing is reused in the next drawing.
+  void discard_pictures();
   /// Records the last widget.
   void note(const std::string& label, const char* kind);
 };

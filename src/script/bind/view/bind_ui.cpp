@@ -347,11 +347,10 @@ Adds input, which the next frames apply.
 > ui:frame(0.01, function() end)
 > ui.mouse.x  --> 5.0)"},
     {"redraw", guarded<ui_redraw>, R"(
-Discards the kept pictures: the next frame draws all of them anew, including what panels cover.
+Draws the last frame again: its picture anew, including what panels cover. Images of widgets are uploaded anew in the next frame.
 @effect edits
 > ui:frame(0.01, function(ui) ui:show(world) end)
 > ui:redraw()
-> ui:frame(0.01, function(ui) ui:show(world) end)
 > ui.pictures_drawn  --> 2)"},
     {"poll", guarded<ui_poll>, R"(
 Collects input of the window.
