@@ -24,7 +24,7 @@ local function target_of_file(session, bird)
   end
 end
 
---- What a bird moves, and how: {target, mode, base, pose}; nil: nothing.
+--- Target and mode of a bird: {target, mode, base, pose}; nil: it moves nothing.
 function birds.of(session, bird)
   local chosen = session.sensors.birds[bird]
   if chosen then return chosen.target ~= "none" and chosen or nil end
@@ -107,7 +107,7 @@ function birds.pose(session, bird)
   return map_of(session, birds.of(session, bird))(birds.reading(session, bird))
 end
 
---- Number of the bird that moves the current hand; nil: none does.
+--- Number of the bird that moves the current hand; nil: no bird.
 function birds.of_hand(session)
   for bird in ipairs(sensors.reading(session, "tracker")) do
     local one = birds.of(session, bird)

@@ -70,7 +70,7 @@ real_hands.names = {"barrett", "leap", "dynamixel", "robotiq", "robotiq_3f"}
 --- Raises an error if options do not fit a driver.
 function real_hands.check(name, ids)
   local driver = real_hands.drivers[name]
-  if ids and driver.takes_no_ids then raise(("sensors.connect_hand: ids: a %s has none"):format(driver.title)) end
+  if ids and driver.takes_no_ids then raise(("sensors.connect_hand: ids: a %s has no number"):format(driver.title)) end
   for i, id in ipairs(ids or {}) do
     if math.type(id) ~= "integer" then raise(("sensors.connect_hand: ids[%d]: expected a whole number, got %s"):format(i, require "clench.described"(id))) end
   end

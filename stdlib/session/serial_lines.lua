@@ -30,7 +30,7 @@ function serial_lines.hint()
   return #found > 0 and table.concat(found, ", ") or "no /dev/ttyUSB or /dev/ttyACM exists"
 end
 
---- What to do if a line cannot be opened, as the end of a sentence: "" if the reason says it.
+--- Advice for a line that cannot be opened, as the end of a sentence; "" if the reason says enough.
 ---@param reason string  of the system
 function serial_lines.advice(reason)
   if reason:find "Permission denied" then return "; the lines belong to the group dialout" end

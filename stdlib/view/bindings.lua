@@ -105,7 +105,7 @@ local function apply(view, name, said, taken)
   bindings.set(view, name, shortcut)
 end
 
---- Applies the shortcuts of a file, by the names of actions; false: the action has none.
+--- Applies the shortcuts of a file, by the names of actions; false: the action has no shortcut.
 ---@return string[] problems  of those that are ignored
 function bindings.apply(view, said)
   local names, problems, taken = {}, {}, {}

@@ -17,7 +17,7 @@ local function ghost(view, kind, hand, pose, dofs)
   return {robot = kept.copy, color = ghosts.colors[kind]}
 end
 
---- The ghosts to be drawn, as an option of `ui:show`; nil: none.
+--- The ghosts to be drawn, as an option of `ui:show`; nil: not shown.
 function ghosts.of(view)
   local online = view.session.online
   if not online or online.world ~= view.session.world or view.replay then

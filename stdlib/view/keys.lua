@@ -30,7 +30,7 @@ function keys.codes(shortcut)
   return list
 end
 
---- A shortcut as pressed keys spell it, with its modifiers in order; raises an error if it is none.
+--- A shortcut as pressed keys spell it, with its modifiers in order; raises an error if it is invalid.
 ---@param shortcut string  "shift+ctrl+z"
 ---@return string  "ctrl+shift+z"
 function keys.normal(shortcut)

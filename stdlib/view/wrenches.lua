@@ -3,7 +3,7 @@ local net_wrench = require "clench.session.net_wrench"
 local replay = require "clench.view.replay"
 local wrenches = {}
 
---- The wrenches to be drawn, as an option of `ui:show`; nil: none.
+--- The wrenches to be drawn, as an option of `ui:show`; nil: not shown.
 function wrenches.of(view)
   if not view.shows_wrenches then return nil end
   local list = {}

@@ -277,7 +277,7 @@ end)
 
 test("a job that ends just after a wait for it has timed out is noticed", function(t)
   local jobs, wait = require "clench.control.rpc.jobs", loop.wait
-  local job, ended = {name = "stub", state = "running", events = function() return {} end}, 0
+  local job, ended = {name = "search", state = "running", events = function() return {} end}, 0
   loop.wait = function(what, seconds)
     if what ~= job then return wait(what, seconds) end
     job.state = "done"

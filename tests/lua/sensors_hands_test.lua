@@ -64,7 +64,7 @@ test("what does not fit a driver is refused in one sentence, before anything is 
     t.equal(session.sensors.hand, nil)
   end
   fails({driver = "leaf"}, "driver: expected barrett, leap, dynamixel, robotiq, robotiq_3f, got 'leaf'; did you mean 'leap'?")
-  fails({ids = {1}}, "sensors.connect_hand: ids: a Barrett hand has none")
+  fails({ids = {1}}, "sensors.connect_hand: ids: a Barrett hand has no number")
   fails({driver = "dynamixel"}, "ids: expected the numbers of the motors, {1, 2, 3}")
   fails({driver = "dynamixel", ids = {"a"}}, "ids[1]: expected a whole number, got 'a'")
   fails({driver = "robotiq", ids = {1, 2}}, "ids: expected one number for a gripper, {9}")

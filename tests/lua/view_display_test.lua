@@ -1,20 +1,7 @@
 -- The panel Display, and the kind of bodies in the inspector, driven by synthetic input.
 local test, clench = require "test", require "clench"
-
-local function opened(world)
-  local session = clench.session()
-  session:open(("worlds/%s.wld"):format(world or "barrett_mug"), {root = "."})
-  local view = clench.view.offscreen {session = session, size = {1070, 937}}
-  view:frame()
-  return session, view
-end
-
-local function texts_of(view)
-  view:frame()
-  local texts = {}
-  for _, item in ipairs(view:items()) do texts[#texts + 1] = item.label end
-  return "\n" .. table.concat(texts, "\n") .. "\n"
-end
+local views = dofile "tests/lua/view_session.lua"
+local opened, texts_of = views.open, views.texts_of
 
 -- the view without panels is the picture of clench.render with these options
 local function shows(t, session, view, options)

@@ -1,36 +1,7 @@
 -- Completion in the console, tooltips, descriptions of DOFs, and fields of dialogs, driven by synthetic input.
 local test, clench = require "test", require "clench"
-
-local function open(world)
-  local session = clench.session()
-  session:open(("worlds/%s.wld"):format(world or "barrett_mug"), {root = "."})
-  local view = clench.view.offscreen {session = session, size = {1070, 937}}
-  view:frame()
-  return session, view
-end
-
-local function texts_of(view)
-  local texts = {}
-  for _, item in ipairs(view:items()) do texts[#texts + 1] = item.label end
-  return "\n" .. table.concat(texts, "\n") .. "\n"
-end
-
-local function item(view, pattern)
-  view:frame()
-  for _, found in ipairs(view:items()) do
-    if found.label:find(pattern) then return found end
-  end
-  error("no widget matches " .. pattern)
-end
-
--- the first widget on the line of a text, right of it
-local function beside(view, text)
-  local left = item(view, "^" .. text .. "$")
-  for _, found in ipairs(view:items()) do
-    if found.kind ~= "text" and found.x > left.x and found.x < left.x + 260 and found.y < left.y + left.height and found.y + found.height > left.y then return found end
-  end
-  error("nothing is beside " .. text)
-end
+local views = dofile "tests/lua/view_session.lua"
+local open, texts_of, item, beside = views.open, views.texts_of, views.item, views.beside
 
 test("Tab completes a name in the console, or its common beginning with a list of what can follow", function(t)
   local session, view = open()

@@ -1,5 +1,7 @@
 -- The panel Forces, driven by synthetic input and compared with the functions that it calls.
 local test, clench = require "test", require "clench"
+local views = dofile "tests/lua/view_session.lua"
+local texts_of = views.texts_of
 
 local function open(world)
   local session = clench.session()
@@ -7,12 +9,6 @@ local function open(world)
   local view = clench.view.offscreen {session = session, size = {1070, 1400}}
   view:frame()
   return session, view
-end
-
-local function texts_of(view)
-  local texts = {}
-  for _, item in ipairs(view:items()) do texts[#texts + 1] = item.label end
-  return "\n" .. table.concat(texts, "\n") .. "\n"
 end
 
 test("optimal forces are shown until something moves, and the yielding contact is named", function(t)

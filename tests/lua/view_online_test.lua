@@ -1,13 +1,8 @@
 -- The panel of the on-line planner, driven by synthetic input and compared with the planner that it shows.
 local test, clench = require "test", require "clench"
+local views = dofile "tests/lua/view_session.lua"
+local texts_of = views.texts_of
 local loop = clench.loop
-
-local function texts_of(view)
-  view:frame()
-  local texts = {}
-  for _, item in ipairs(view:items()) do texts[#texts + 1] = item.label end
-  return "\n" .. table.concat(texts, "\n") .. "\n"
-end
 
 local function run_until(t, is_over)
   local last = loop.time() + 300

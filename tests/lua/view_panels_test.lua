@@ -1,41 +1,12 @@
 -- Panels of the viewer, driven by synthetic input and compared with the commands that they run.
 local test, clench = require "test", require "clench"
-
-local function open(world)
-  local session = clench.session()
-  session:open(("worlds/%s.wld"):format(world or "barrett_mug"), {root = "."})
-  local view = clench.view.offscreen {session = session, size = {1070, 937}}
-  view:frame()
-  return session, view
-end
-
-local function texts_of(view)
-  local texts = {}
-  for _, item in ipairs(view:items()) do texts[#texts + 1] = item.label end
-  return "\n" .. table.concat(texts, "\n") .. "\n"
-end
+local views = dofile "tests/lua/view_session.lua"
+local open, texts_of, item, beside = views.open, views.texts_of, views.item, views.beside
 
 local function console_of(view)
   local lines = {}
   for i, line in ipairs(view.lines) do lines[i] = line.text end
   return table.concat(lines, "\n")
-end
-
-local function item(view, pattern)
-  view:frame()
-  for _, found in ipairs(view:items()) do
-    if found.label:find(pattern) then return found end
-  end
-  error("no widget matches " .. pattern)
-end
-
--- the first widget on the line of a text, right of it
-local function beside(view, text)
-  local left = item(view, "^" .. text .. "$")
-  for _, found in ipairs(view:items()) do
-    if found.kind ~= "text" and found.x > left.x and found.x < left.x + 260 and found.y < left.y + left.height and found.y + found.height > left.y then return found end
-  end
-  error("nothing is beside " .. text)
 end
 
 test("every panel draws on the mug and on the flask without an error", function(t)

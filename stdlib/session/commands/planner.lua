@@ -39,7 +39,7 @@ local function energies()
   return names
 end
 
--- values that a dialog suggests for an option which may also be a table or a function; nil: none are known
+-- values that a dialog suggests for an option which may also be a table or a function; nil: unknown
 local function suggested_for(name, kind)
   if kind:find "|" and ("|" .. kind .. "|"):find("|boolean|", 1, true) then return {false, true} end
   if kind:find("string|energy", 1, true) then return energies end
