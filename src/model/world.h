@@ -101,6 +101,9 @@ class World {
   void set_free_armature(Id<Body> body, double armature);
   void set_gravity_compensation(Id<Body> body, double part);
   void set_appearance(Id<Body> body, const Appearance& appearance);
+  /// Makes an object an obstacle, or an obstacle an object; it comes to rest.
+  /// throws  Error for a part of a robot, another kind, or an object that is welded to another one
+  void set_kind(Id<Body> body, BodyKind kind);
 
   const MaterialTable& materials() const { return settings_->materials; }
   /// Adds the material with this friction, unless a material has its name.

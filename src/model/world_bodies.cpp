@@ -1,5 +1,6 @@
 // Properties of the bodies of a world.
 #include "clench/base/error.h"
+#include "clench/base/text.h"
 #include "clench/model/world.h"
 #include "clench/spec/inertia.h"
 
@@ -82,6 +83,22 @@ void World::set_gravity_compensation(Id<Body> id, double part) {
 void World::set_appearance(Id<Body> id, const Appearance& appearance) {
   check_appearance(appearance, the_body(body(id).name));
   edit(id).appearance = appearance;
+}
+
+void World::set_kind(Id<Body> id, BodyKind kind) {
+  const Body& b = body(id);
+  const std::string name = excerpt(b.name);
+  if (b.robot)
+    fail("body '{}' is a part of robot '{}': its kind cannot change", name,
+         excerpt(robot(b.robot).name));
+  if (kind != BodyKind::object && kind != BodyKind::obstacle)
+    fail("body '{}': kind: expected object or obstacle", name);
+  if (b.kind == kind) return;
+  if (const auto weld = dynamic_settings().welds.find(id); weld != dynamic_settings().welds.end())
+    fail("body '{}' is welded to '{}': it cannot become an obstacle", name,
+         excerpt(body(weld->second).name));
+  edit(id).kind = kind;
+  come_to_rest(id);
 }
 
 }  // namespace clench

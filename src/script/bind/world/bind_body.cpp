@@ -1,6 +1,5 @@
 #include "clench/base/text.h"
 #include "clench/model/fingerprint.h"
-#include "clench/model/set_kind.h"
 #include "clench/script/bind/dynamics/dynamics.h"
 #include "clench/script/bind/handles.h"
 #include "clench/script/bind/world/robots.h"
@@ -24,7 +23,7 @@ static int set_body_kind(lua_State* L) {
   const auto& body = self<BodyHandle>(L);
   const std::string kind = check_string(L, 2, "kind");
   for (const BodyKind known : {BodyKind::object, BodyKind::obstacle})
-    if (kind == kind_name(known)) return set_kind(*body.world, body.id, known), 0;
+    if (kind == kind_name(known)) return body.world->set_kind(body.id, known), 0;
   fail("{}: kind: expected object, obstacle, got '{}'", subject(L), excerpt(kind));
 }
 
