@@ -79,7 +79,7 @@ if(NOT CLENCH_SANITIZE)
     list(APPEND fuzzers "fuzz: viewer")
   endif()
   set_tests_properties("fuzz: scratch folder" PROPERTIES FIXTURES_SETUP fuzz_root)
-  set_tests_properties(${fuzzers} PROPERTIES WORKING_DIRECTORY ${fuzz} FIXTURES_REQUIRED fuzz_root)
+  set_tests_properties(${fuzzers} PROPERTIES WORKING_DIRECTORY ${fuzz} FIXTURES_REQUIRED fuzz_root ENVIRONMENT CLENCH_MODELS=.)
 
   lua_test("docs/api agrees with the bindings" clench_app doc docs/api --check)
 

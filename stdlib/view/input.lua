@@ -87,6 +87,7 @@ end
 --- Clicks on the widget with a label.
 function input.click_label(view, label, kind)
   check.text("view:click_label", "label", label, 1000)
+  settle(view)
   local item = input.find(view, label, kind)
   if not item.enabled then raise(("view: '%s' is disabled"):format(label)) end
   input.click(view, item.x + math.min(item.width, 24) / 2, item.y + item.height / 2)

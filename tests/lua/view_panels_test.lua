@@ -341,3 +341,20 @@ test("the dialog of an import has fields for the pose, and places the body by it
   t.close(view.dialogs["body.move"].pose.position, session.world:body "box".pose.position, 1e-12)
   view:close()
 end)
+
+test("steps are redone in the panel History while dynamics play, which ends the list of undone steps", function(t)
+  local session, view = open()
+  for i = 1, 3 do session:run("body.move", {body = "mug", pose = {xyz = {0, 0, 0.01 * i}}}) end
+  for _ = 1, 3 do session:undo() end
+  view:click_label "History"
+  session:run "dynamics.play"
+  clench.loop.run(0.1)
+  t.equal(#session.history.undone, 3)
+  local next_step = item(view, "%(undone%)")
+  view.ui:input {kind = "move", x = next_step.x + 5, y = next_step.y + next_step.height / 2}
+  for _, down in ipairs {true, false} do view.ui:input {kind = "button", code = 0, down = down} end
+  repeat t.equal(texts_of(view):find "history%.lua:%d+", nil) until not view.ui:poll()  -- an error is shown for one frame
+  t.equal(#session.history.undone, 0)
+  t.ok(not session.playing)
+  view:close()
+end)
