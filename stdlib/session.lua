@@ -72,7 +72,8 @@ end
 ---@param command {name: string, run: function, label?: string, shortcut?: string, menu?: string, section?: number, enabled?: function, parameters?: table[], reads?: boolean, script?: function, replace?: boolean, long?: boolean}
 --- name: "group.verb"; run(session, args); menu: "Grasp", or "Grasp/Posture" for a submenu; section: the viewer sorts the entries of a menu by it, with a line
 --- between two sections, and those without one come last; enabled(session): can it run now? If not, it may return a reason as its second value; parameters: a list of {name =,
---- type =, unit =, min =, max =, default =, optional =, choices =, text =, hint =}, where hint() returns the text of its empty field; reads: it changes nothing, and is neither logged nor undone; script(session, args): lines of
+--- type =, unit =, min =, max =, default =, optional =, choices =, text =, hint =, files =}, where hint() returns the text of its empty field, and files = {kinds =, endings =, catalog =, writes =, ending =} marks a path: a dialog lists the
+--- files of these kinds (of clench.file_kind) or endings, and lists of clench.catalog; writes: the file is written, and a dialog asks before it replaces one; ending: appended to a name without one; reads: it changes nothing, and is neither logged nor undone; script(session, args): lines of
 --- Lua with the same effect, logged instead of the resulting state, or a function of the result that returns them; replace: it may replace a command of the same name; long: it may take seconds, so a server
 --- runs it as a job (requires script or reads)
 function Session:command(command)

@@ -1699,6 +1699,12 @@ function clench.files.check_writable(path) end
 ---@return string
 function clench.files.read_text(path, options) end
 
+---Names in a folder, sorted; hidden ones too. `files` are all that are not folders.
+---@param folder string # folder to list; "" is the current one
+---@param options? {confine?: string} # how the folder is read
+---@return {folders: string[], files: string[]}
+function clench.files.list(folder, options) end
+
 ---Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of their values.
 ---@param name string # for errors
 ---@param text string # contents of a CSV file

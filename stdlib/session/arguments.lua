@@ -2,11 +2,13 @@
 local described = require "clench.described"
 local raise = require "clench.raise"
 local suggest = require "clench.suggest"
+local with_ending = require "clench.session.with_ending"
 local arguments = {}
 
 local types = {number = true, integer = true, string = true, boolean = true, table = true, pose = true, vec3 = true, body = true, robot = true, any = true}
 local command_fields = {name = true, label = true, shortcut = true, menu = true, section = true, enabled = true, run = true, parameters = true, reads = true, script = true, replace = true, long = true}
-local known_fields = {name = true, type = true, unit = true, min = true, max = true, default = true, optional = true, text = true, choices = true, suggested = true, hint = true, in_dialog = true}
+local known_fields = {name = true, type = true, unit = true, min = true, max = true, default = true, optional = true, text = true, choices = true, suggested = true, hint = true, in_dialog = true, files = true}
+local known_of_files = {kinds = true, endings = true, ending = true, catalog = true, writes = true}
 
 -- "ctrl+shift+s": modifiers in this order and a key, in lower case
 local function check_shortcut(command)
@@ -25,6 +27,15 @@ local function check_place(command)
   end
   if section ~= nil and not (type(section) == "number" and section == section) then
     raise(("session:command: %s: section: expected a number, got %s"):format(command.name, described(section)))
+  end
+end
+
+local function check_files(name, parameter)
+  local files = parameter.files
+  if files == nil then return end
+  if type(files) ~= "table" then raise(("session:command: %s: parameter %s: files: expected a table, got %s"):format(name, parameter.name, described(files))) end
+  for field in pairs(files) do
+    if not known_of_files[field] then raise(("session:command: %s: parameter %s: files: unknown key '%s'"):format(name, parameter.name, tostring(field))) end
   end
 end
 
@@ -54,6 +65,7 @@ function arguments.check_command(command)
     if parameter.suggested ~= nil and type(parameter.suggested) ~= "table" and type(parameter.suggested) ~= "function" then
       raise(("session:command: %s: parameter %s: suggested: expected a list or a function that returns one, got %s"):format(name, parameter.name, described(parameter.suggested)))
     end
+    check_files(name, parameter)
     if not types[parameter.type] then
       raise(("session:command: %s: parameter %s: type: expected one of number, integer, string, boolean, table, pose, vec3, body, robot, any, got %s"):format(
         name, parameter.name, described(parameter.type)))
@@ -100,6 +112,12 @@ local function names_of(parameters)
   return names, known
 end
 
+--- A value of a parameter; the path of a file to write with the ending that the command appends.
+function arguments.with_ending(parameter, value)
+  local ending = parameter.files and parameter.files.ending
+  return ending and type(value) == "string" and value ~= "" and with_ending(value, ending) or value
+end
+
 --- Reads the arguments of a command.
 ---@param command table
 ---@param given? table
@@ -125,6 +143,7 @@ function arguments.read(command, given)
       if not is_of(parameter.type, value) then raise(("%s: %s: expected %s, got %s"):format(subject, name, with_article(parameter.type), described(value))) end
       if type(value) == "number" then check_range(subject, parameter, value) end
       if parameter.choices then check_choice(subject, parameter, value) end
+      value = arguments.with_ending(parameter, value)
     end
     out[name] = value
   end

@@ -8,10 +8,29 @@ local dialog = {}
 
 local function is_planner(command) return command.name:find "^planner%." ~= nil end
 
+-- the parameters that are paths of files
+local function file_parameters(command)
+  local list = {}
+  for _, parameter in ipairs(command.parameters or {}) do
+    if parameter.files then list[#list + 1] = parameter end
+  end
+  return list
+end
+
+-- the question about a file that the command would replace; nil if there is none
+local function question_of(command, state)
+  for _, parameter in ipairs(file_parameters(command)) do
+    local path = state[parameter.name]
+    local file = paths.replaced(parameter.files, path)
+    if file then return {parameter = parameter.name, path = path, file = file} end
+  end
+end
+
 local function run(view, command, state)
   local args = {}
   for _, parameter in ipairs(command.parameters or {}) do args[parameter.name] = state[parameter.name] end
-  state.error = nil
+  state.error, state.question = nil, not state.question and question_of(command, state) or nil
+  if state.question then return end
   local ok, result = pcall(view.session.run, view.session, command.name, args)
   if not ok then
     state.error = tostring(result)
@@ -72,14 +91,32 @@ local function draw_planner(view, ui, command, state)
   draw_fields(view, ui, command, state, 0)
 end
 
+-- the files to choose from for the field that was used last, or for the first one
+local function draw_files(view, ui, command, state, lines)
+  local list = file_parameters(command)
+  local shown = list[1]
+  for _, parameter in ipairs(list) do
+    if parameter.name == state.used then shown = parameter end
+  end
+  if not shown then return end
+  local name = shown.name
+  state.lists[name] = state.lists[name] or {}
+  local path, accepted = paths.draw(view, ui, shown.files, state.lists[name], state.texts[name] or "", lines)
+  if path then state.texts[name], state[name] = path, path end
+  state.entered = state.entered or accepted
+end
+
 local function draw(view, ui, command, state)
   if is_planner(command) then return draw_planner(view, ui, command, state) end
-  -- an error takes its lines from the fields: the window keeps its size, and its buttons remain visible
-  local lines = state.error and 3 or 0
-  draw_fields(view, ui, command, state, math.max(fields.height(view, ui, command) - lines * ui.line_height, 2 * ui.line_height))
-  paths.draw(view, ui, command, state)
+  -- an error takes its lines from the list of files, or from the fields: the window keeps its size, and its buttons remain visible
+  local lines = state.error and 3 or state.question and 1 or 0
+  local has_files = #file_parameters(command) > 0
+  local height = fields.height(view, ui, command)
+  draw_fields(view, ui, command, state, has_files and height or math.max(height - lines * ui.line_height, 2 * ui.line_height))
+  draw_files(view, ui, command, state, lines)
   if state.error then ui:text(state.error, {color = {0.84, 0.37, 0}, wrap = true}) end
-  if ui:button("OK", {width = 90 * view.scale}) or state.entered then
+  state.question = paths.draw_question(ui, state.question, state.question and state[state.question.parameter])
+  if ui:button(state.question and "Replace" or "OK", {width = 90 * view.scale}) or state.entered then
     state.entered = nil
     run(view, command, state)
   end

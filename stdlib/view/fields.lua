@@ -2,7 +2,7 @@
 local units = require "clench.view.units"
 local fields = {}
 
-local width, pose_width = 210, 282  -- at scale 1 [pixels]
+local width, path_width, pose_width = 210, 340, 282  -- at scale 1 [pixels]
 
 -- text that a field shows for a value of any type
 local function shown(value)
@@ -95,17 +95,18 @@ local function draw_text(ui, state, parameter)
   local name = parameter.name
   local text, changed, entered = ui:text_input("##" .. name, state.texts[name] or shown(state[name]), {hint = state.hints[name] or parameter.optional and "default" or "", on_enter = true, focus = state.focus == name})
   if state.focus == name then state.focus = nil end
+  if ui:active() then state.used = name end
   state.entered = state.entered or entered
   if changed then state.texts[name], state[name] = text, read(parameter, text) end
 end
 
 --- Draws the field of a parameter.
----@param state table  values by name; `texts`: typed texts; `hints`: of empty fields; `focus`: name of the field that takes the keys; `entered`: Enter was pressed
+---@param state table  values by name; `texts`: typed texts; `hints`: of empty fields; `focus`: name of the field that takes the keys; `used`: of the one that had them last; `lists`: of files, by name; `entered`: Enter was pressed
 local function draw_value(view, ui, state, parameter)
   local name = parameter.name
   local choices = choices_of(view, parameter)
   if parameter.type == "pose" then return draw_pose(view, ui, state, parameter) end
-  ui:width(width * view.scale)
+  ui:width((parameter.files and path_width or width) * view.scale)
   local checked = is_checked(parameter, choices)
   if choices and not checked then return draw_choice(ui, state, parameter, choices) end
   if not checked then return draw_text(ui, state, parameter) end
@@ -126,7 +127,7 @@ end
 --- The values with which a dialog opens, and its first typed field, which takes the keys.
 ---@return table state
 function fields.new(view, command)
-  local state = {texts = {}, hints = {}}
+  local state = {texts = {}, hints = {}, lists = {}}
   for _, parameter in ipairs(command.parameters or {}) do
     local value = parameter.in_dialog
     if type(value) == "function" then value = value(view.session) end
@@ -143,7 +144,7 @@ end
 function fields.height(view, ui, command)
   local rows = 0
   for _, parameter in ipairs(command.parameters or {}) do rows = rows + (parameter.type == "pose" and (parameter.optional and 3 or 2) or 1) end
-  return math.min(rows * (ui.line_height + 6 * view.scale) + 8, 420 * view.scale)
+  return math.min(rows * (ui.line_height + 2 * view.scale) + 8, 420 * view.scale)
 end
 
 return fields

@@ -1,4 +1,5 @@
 --- The arrangement of tool bar, panels and status bar around the picture.
+local ask_path = require "clench.view.ask_path"
 local autosave = require "clench.view.autosave"
 local bindings = require "clench.view.bindings"
 local compare = require "clench.view.compare"
@@ -195,27 +196,8 @@ local function draw_status(view, ui, y, width, height)
   end)
 end
 
-local function draw_question(view, ui)
-  if view.ask then
-    local ask = view.ask
-    local open = ui:window(ask.title, {width = 0, modal = true, can_close = true}, function(ui)
-      ui:width(320 * view.scale)
-      local text, _, entered = ui:text_input("path", ask.text, {on_enter = true, focus = not ask.shown})
-      ask.text, ask.shown = text, true
-      if ui:button("Save##ask") or entered then
-        local ok, result = pcall(ask.done, ask.text)
-        if ok then
-          view.ask, view.status = nil, "Saved " .. (type(result) == "string" and result or ask.text)
-        else
-          ask.error = tostring(result)
-        end
-      end
-      ui:same_line()
-      if ui:button "Cancel##ask" then view.ask = nil end
-      if ask.error then ui:text(ask.error, {color = {0.84, 0.37, 0}, wrap = true}) end
-    end)
-    if not open then view.ask = nil end
-  end
+local function draw_questions(view, ui)
+  ask_path.draw(view, ui)
   leave.draw(view, ui)
   autosave.draw(view, ui)
 end
@@ -264,7 +246,7 @@ function layout.draw(view, ui)
   dialog.draw(view, ui)
   compare.draw(view, ui)
   projections.draw_windows(view, ui)
-  draw_question(view, ui)
+  draw_questions(view, ui)
   help.draw(view, ui)
 end
 

@@ -1,4 +1,5 @@
 --- Asks about unsaved changes before the world is replaced or the program ends.
+local ask_path = require "clench.view.ask_path"
 local leave = {}
 
 --- Calls a function that closes the world: at once if nothing is unsaved, otherwise after the question.
@@ -27,11 +28,11 @@ local function save(view)
     return
   end
   view.leaving = nil
-  view.ask = {title = "Save World", text = "world.wld", done = function(path)
+  ask_path.open(view, "Save World", "world.wld", "world.save_as", function(path)
     session:run("world.save_as", {path = path})
     view.leaving = leaving
     finish(view)
-  end}
+  end)
 end
 
 --- Draws the question, if it is open.

@@ -1,4 +1,5 @@
 --- The menu bar: menus of the session's commands, in the order of GraspIt!, with submenus and sections, and those of the view itself.
+local ask_path = require "clench.view.ask_path"
 local bindings = require "clench.view.bindings"
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
@@ -31,15 +32,15 @@ local function draw_recent(view, ui)
 end
 
 local function ask_view(view)
-  view.ask = {title = "Save View", text = "view.png", done = function(path)
+  ask_path.open(view, "Save View", "view.png", "world.save_image", function(path)
     path = with_ending(path, ".png")
     view:screenshot {path = path, panels = false}
     return path
-  end}
+  end)
 end
 
 local function ask_script(view)
-  view.ask = {title = "Save Session as Script", text = "session.lua", done = function(path) view:save_script(path) end}
+  ask_path.open(view, "Save Session as Script", "session.lua", {endings = {".lua"}, writes = true}, function(path) view:save_script(path) end)
 end
 
 local function draw_tools(view, ui)

@@ -29,6 +29,7 @@ local readers = {
   ["clench.load{virtual_contacts}"] = function(path) clench.load(inside .. "/plain.urdf", {virtual_contacts = path}) end,
   ["clench.grasps"] = clench.grasps,
   ["clench.csv.read"] = clench.csv.read,
+  ["clench.files.list"] = clench.files.list,
   ["clench.port.replay"] = function(path) clench.port.replay(path):close() end,
   ["clench.plan.primitive{primitives}"] = function(path) clench.plan.primitive {hand = hand, object = box, primitives = path} end,
   ["clench.report.of"] = function(path)

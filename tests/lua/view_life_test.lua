@@ -1,6 +1,5 @@
 -- The life of a view: the question about unsaved changes, and data kept from one run to the next.
 local test, clench = require "test", require "clench"
-local paths = require "clench.view.paths"
 
 -- a small world from a new file
 local function open()
@@ -403,46 +402,4 @@ test("the session's script is written completely, or not at all", function(t)
   view:close()
   os.remove(file)
   os.remove(path)
-end)
-
-test("the files of an import are chosen from a list, which follows the text, and a planner's dialog ends with its world", function(t)
-  local session = clench.session()
-  session:open("worlds/barrett_mug.wld", {root = "."})
-  local view = clench.view.offscreen {session = session, size = {1070, 937}}
-  view:menu "Grasp/Planner…"
-  t.ok(view.dialogs["planner.primitive"])
-  view:menu "File/New"
-  view:frame()
-  t.equal(view.dialogs, {})
-  view:menu "File/Import Object…"
-  local known = clench.catalog().objects
-  t.equal(paths.choices(view, session.commands["world.import_object"], ""), known)
-  view:type "cyl"
-  t.equal(paths.choices(view, session.commands["world.import_object"], "cyl"), {"models/objects/cylinder.iv"})
-  view:click_label "models/objects/cylinder.iv"
-  t.equal(view.dialogs["world.import_object"].path, "models/objects/cylinder.iv")
-  view:click_label "OK"
-  t.equal(session.world.objects[1].name, "cylinder")
-  t.equal(paths.choices(view, session.commands["world.import_robot"], "arms"), clench.catalog().arms)
-  t.equal(paths.choices(view, session.commands["world.save_as"], ""), {})
-  view:close()
-end)
-
-test("without a folder of models the reason is shown once, and recent files can be chosen", function(t)
-  local script = test.path ".lua"
-  clench.files.save_text(script, [[
-    local clench, paths = require "clench", require "clench.view.paths"
-    local view = clench.view.offscreen {session = clench.session(), size = {64, 48}}
-    view.recent = {"one.wld", "two.wld"}
-    local open = view.session.commands["world.open"]
-    print(table.concat(paths.choices(view, open, ""), " "), table.concat(paths.choices(view, open, "two"), " "))
-    for _, line in ipairs(view.lines) do print(line.text) end
-  ]])
-  local program = test.path()
-  local pipe <close> = io.popen(("cp \"$(readlink /proc/$PPID/exe)\" '%s' && env -u CLENCH_MODELS '%s' -q run '%s'"):format(program, program, script))
-  local lines = {}
-  for line in pipe:lines() do lines[#lines + 1] = line end
-  t.equal(#lines, 2)
-  t.equal(lines[1], "one.wld two.wld\ttwo.wld")
-  t.ok(lines[2]:find("clench.catalog: no folder", 1, true), lines[2])
 end)

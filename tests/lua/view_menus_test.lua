@@ -210,7 +210,7 @@ end)
 
 test("a path and the first field of a dialog are typed at once, Enter confirms, and keys run no commands behind a question", function(t)
   local session, view = open()
-  local path, count = os.tmpname(), #session.history.done
+  local path, count = test.path ".lua", #session.history.done
   view:menu "File/Save Session as Script…"
   view:frame()
   view:key "ctrl+a"

@@ -1,19 +1,18 @@
 --- Files that JSON-RPC clients may name: none, unless the server has a folder; then those below it, after resolving links.
+local arguments = require "clench.session.arguments"
 local canonical = require "clench.canonical"
 local described = require "clench.described"
 local failure = require "clench.control.rpc.failure"
-local with_ending = require "clench.session.with_ending"
 local files = {}
 
 -- parameters that are paths, of commands whose other parameters are known to name no files
 local known = {
-  ["world.open"] = {"path"}, ["world.import_robot"] = {"path"}, ["world.import_object"] = {"path"}, ["world.import_obstacle"] = {"path"},
-  ["world.save"] = {"path"}, ["world.save_as"] = {"path"}, ["world.save_image"] = {"path"}, ["file.check"] = {"path"}, ["file.convert"] = {"from", "to"},
-  ["grasp.load_virtual"] = {"path"}, ["grasp.save_virtual"] = {"path"},
+  ["world.open"] = {path = true}, ["world.import_robot"] = {path = true}, ["world.import_object"] = {path = true}, ["world.import_obstacle"] = {path = true},
+  ["world.save"] = {path = true}, ["world.save_as"] = {path = true}, ["world.save_image"] = {path = true}, ["file.check"] = {path = true}, ["file.convert"] = {from = true, to = true},
+  ["grasp.load_virtual"] = {path = true}, ["grasp.save_virtual"] = {path = true},
 }
 -- these have no options for readers
 local has_no_reader = {["world.save"] = true, ["world.save_as"] = true, ["world.save_image"] = true, ["grasp.load_virtual"] = true, ["grasp.save_virtual"] = true}
-local endings = {["world.save_as"] = ".wld", ["world.save_image"] = ".png"}  -- endings that the command appends to names without one
 
 -- a parameter of such a name is treated as a path in any other command, which is refused
 local suspicious = {path = true, paths = true, file = true, files = true, folder = true, root = true}
@@ -21,7 +20,7 @@ local suspicious = {path = true, paths = true, file = true, files = true, folder
 local function names_files(command)
   if known[command.name] or command.name:find "^file%." then return true end
   for _, parameter in ipairs(command.parameters or {}) do
-    if suspicious[parameter.name] then return true end
+    if parameter.files or suspicious[parameter.name] then return true end
   end
   return false
 end
@@ -68,10 +67,9 @@ function files.confine(server, command, args)
   if has_own_file(server, name, args) then return args end
   local out = {}
   for key, value in pairs(args) do out[key] = value end
-  for _, parameter in ipairs(known[name]) do
-    local path = args[parameter]
-    if endings[name] and type(path) == "string" and path ~= "" then path = with_ending(path, endings[name]) end
-    out[parameter] = path_below(server.folder, parameter, path)
+  for _, parameter in ipairs(command.parameters or {}) do
+    local field = parameter.name
+    if known[name][field] then out[field] = path_below(server.folder, field, arguments.with_ending(parameter, args[field])) end
   end
   if not has_no_reader[name] then out.options = confined_options(server, name, args.options) end
   return out

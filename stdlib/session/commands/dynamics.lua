@@ -46,7 +46,7 @@ return {
   {name = "dynamics.pop", label = "Pop State", menu = "Dynamics", section = 3, enabled = function(session) return #session.stack > 0, "no state was pushed" end,
    run = function(session) session.world:restore(table.remove(session.stack)) end, script = function() return "world:pop()" end},
   {name = "dynamics.save_film", label = "Save Film…", menu = "Dynamics", section = 4, enabled = has_recording, reads = true,
-   parameters = {{name = "path", type = "string", text = "a file: .html, a page that plays in 3-D; .gif; .mp4; or .png, one picture per state"},
+   parameters = {{name = "path", type = "string", files = {endings = {".html", ".gif", ".mp4", ".png"}, writes = true}, text = "a file: .html, a page that plays in 3-D; .gif; .mp4; or .png, one picture per state"},
                  {name = "options", type = "table", optional = true, text = "options of recording:save"}},
    run = function(session, args)
      session.recording:save(args.path, args.options)

@@ -4,7 +4,8 @@ local conditions = require "clench.session.conditions"
 local script = require "clench.session.script"
 
 local hand = {name = "hand", type = "robot", optional = true, text = "address of a robot; the current hand by default"}
-local path = {name = "path", type = "string", text = "a file, .egr or .xml"}
+local loaded = {name = "path", type = "string", files = {kinds = {"eigengrasps"}}, text = "a file, .egr or .xml"}
+local saved = {name = "path", type = "string", files = {kinds = {"eigengrasps"}, writes = true}, text = "file to write, .egr or .xml"}
 
 -- one eigengrasp per DOF, with the limits of the DOF, and the zero posture as the origin
 local function identity(robot)
@@ -38,12 +39,12 @@ end
 return {
   setter("set_origin", "Set Origin of EigenGrasps", about_posture),
   setter("identity_eigengrasps", "Use Identity EigenGrasps", identity),
-  {name = "grasp.load_eigengrasps", label = "Load EigenGrasps…", menu = "Grasp/EigenGrasps", section = 4, enabled = conditions.hand, parameters = {path, hand},
+  {name = "grasp.load_eigengrasps", label = "Load EigenGrasps…", menu = "Grasp/EigenGrasps", section = 4, enabled = conditions.hand, parameters = {loaded, hand},
    run = function(session, args) arguments.find_robot(session, args.hand).eigengrasps = clench.files.eigengrasps(args.path) end,
    script = function(session, args)
      return ("%s.eigengrasps = clench.files.eigengrasps(%q)"):format(script.name_of(arguments.find_robot(session, args.hand)), args.path)
    end},
-  {name = "grasp.save_eigengrasps", label = "Save EigenGrasps…", menu = "Grasp/EigenGrasps", section = 4, enabled = conditions.hand, reads = true, parameters = {path, hand},
+  {name = "grasp.save_eigengrasps", label = "Save EigenGrasps…", menu = "Grasp/EigenGrasps", section = 4, enabled = conditions.hand, reads = true, parameters = {saved, hand},
    run = function(session, args)
      arguments.find_robot(session, args.hand).eigengrasps:save(args.path)
      return args.path

@@ -3,6 +3,8 @@ local arguments = require "clench.session.arguments"
 local conditions = require "clench.session.conditions"
 local raise = require "clench.raise"
 
+local endings = {".jsonl", ".csv", ".npz", ".yaml", ".json"}
+
 -- the grasps of the arguments, as a list that can be saved
 local function list_of(session, args)
   local list = clench.grasps()
@@ -13,7 +15,7 @@ end
 
 return {
   {name = "grasp.load_grasps", label = "Load Grasps…", menu = "Grasp/Grasp Lists", section = 4, enabled = conditions.world, reads = true,
-   parameters = {{name = "path", type = "string", text = "a list of grasps: .jsonl, .csv, .npz, .yaml (isaac_grasp) or .json"},
+   parameters = {{name = "path", type = "string", files = {endings = endings}, text = "a list of grasps: .jsonl, .csv, .npz, .yaml (isaac_grasp) or .json"},
                  {name = "options", type = "table", optional = true, text = "options of clench.grasps"}},
    run = function(session, args)
      local grasps = clench.grasps(args.path, args.options)
@@ -21,7 +23,7 @@ return {
      return grasps
    end},
   {name = "grasp.save_grasps", label = "Save Grasps…", menu = "Grasp/Grasp Lists", section = 4, enabled = conditions.world, reads = true,
-   parameters = {{name = "path", type = "string", text = "file to write; its ending selects the format"},
+   parameters = {{name = "path", type = "string", files = {endings = endings, writes = true}, text = "file to write; its ending selects the format"},
                  {name = "job", type = "integer", min = 1, optional = true, text = "number of a planner's job in session.jobs; the last one by default"},
                  {name = "grasps", type = "any", optional = true, text = "a list of grasps instead of those of a job"},
                  {name = "options", type = "table", optional = true, text = "options of list:save"}},

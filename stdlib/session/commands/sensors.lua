@@ -7,8 +7,11 @@ local sensed = require "clench.session.sensed"
 local sensors = require "clench.session.sensors"
 local serial_lines = require "clench.session.serial_lines"
 
-local file = {name = "path", type = "string", text = "a file of a glove's calibration"}
-local posture_file = {name = "path", type = "string", text = "a file of postures of a glove"}
+-- a file of a glove that is read, or written
+local function glove_file(kind, text, writes) return {name = "path", type = "string", files = {kinds = {kind}, writes = writes}, text = text} end
+local calibration_file, new_calibration_file = glove_file("glove calibration", "a file of a glove's calibration"), glove_file("glove calibration", "file of the glove's calibration to write", true)
+local posture_file, new_posture_file = glove_file("glove poses", "a file of postures of a glove"), glove_file("glove poses", "file of the postures to write", true)
+
 local glove, tracker, real_hand = sensors.has_reading "glove", sensors.has_reading "tracker", sensors.has_reading "hand"
 
 local function hand_and(condition)
@@ -82,7 +85,7 @@ return {
            {name = "distance", type = "number", min = 0, max = 1, unit = "m", optional = true, text = "of two fingertips, instead of dofs; 0: they touch"}}, gloves.record),
   setting("Sensors/Glove Calibration", 2, "clear_postures", "Clear Postures", gloves.has_any, nil, function(session) session.sensors.postures = {} end),
   setting("Sensors/Glove Calibration", 2, "load_postures", "Load Postures…", nil, {posture_file}, function(session, args) return gloves.load_postures(session, args.path) end),
-  setting("Sensors/Glove Calibration", 2, "save_postures", "Save Postures…", gloves.has_any, {posture_file}, function(session, args)
+  setting("Sensors/Glove Calibration", 2, "save_postures", "Save Postures…", gloves.has_any, {new_posture_file}, function(session, args)
     clench.devices.save_postures(args.path, session.sensors.postures)
     return args.path
   end),
@@ -93,8 +96,8 @@ return {
            {name = "refine", type = "table", text = "DOFs whose coefficients are fitted, those of the thumb: {17, 18, 19, 20}"},
            {name = "shell", type = "number", min = 0, max = 0.1, default = 0.008, unit = "m", text = "separation of the points of two tips that touch"}}, gloves.calibrate_tips),
   setting("Sensors/Glove Calibration", 2, "load_calibration", "Load Calibration…", nil,
-          {file, {name = "dofs", type = "table", optional = true, text = "rows of the calibration by the numbers of DOFs, {[2] = 1}"}}, load_calibration),
-  setting("Sensors/Glove Calibration", 2, "save_calibration", "Save Calibration…", has_calibration, {file}, save_calibration),
+          {calibration_file, {name = "dofs", type = "table", optional = true, text = "rows of the calibration by the numbers of DOFs, {[2] = 1}"}}, load_calibration),
+  setting("Sensors/Glove Calibration", 2, "save_calibration", "Save Calibration…", has_calibration, {new_calibration_file}, save_calibration),
   edit(4, "pull", "Simulated Hand to Real One", hand_and(real_hand), sensed.pull),
   setting("Sensors", 4, "push", "Real Hand to Simulated One…", hand_and(real_hand),
           {{name = "max_speed", type = "number", min = 1e-3, max = 10, default = 1, unit = "rad/s", text = "of each joint"},

@@ -5,7 +5,8 @@ local raise = require "clench.raise"
 local script = require "clench.session.script"
 
 local hand = {name = "hand", type = "robot", optional = true, text = "address of a robot; the current hand by default"}
-local path = {name = "path", type = "string", text = "a file, .vgr or .xml"}
+local loaded = {name = "path", type = "string", files = {kinds = {"virtual contacts"}}, text = "a file, .vgr or .xml"}
+local saved = {name = "path", type = "string", files = {kinds = {"virtual contacts"}, writes = true}, text = "file to write, .vgr or .xml"}
 
 local function name_of(session, args) return script.name_of(arguments.find_robot(session, args.hand)) end
 
@@ -34,10 +35,10 @@ return {
   {name = "grasp.clear_virtual", label = "Clear Virtual Contacts", menu = "Grasp/Virtual Contacts", section = 4, enabled = conditions.hand, parameters = {hand},
    run = function(session, args) arguments.find_robot(session, args.hand).virtual_contacts = {} end,
    script = function(session, args) return name_of(session, args) .. ".virtual_contacts = {}" end},
-  {name = "grasp.load_virtual", label = "Load Virtual Contacts…", menu = "Grasp/Virtual Contacts", section = 4, enabled = conditions.hand, parameters = {path, hand},
+  {name = "grasp.load_virtual", label = "Load Virtual Contacts…", menu = "Grasp/Virtual Contacts", section = 4, enabled = conditions.hand, parameters = {loaded, hand},
    run = function(session, args) arguments.find_robot(session, args.hand).virtual_contacts = clench.files.virtual_contacts(args.path) end,
    script = function(session, args) return ("%s.virtual_contacts = clench.files.virtual_contacts(%q)"):format(name_of(session, args), args.path) end},
-  {name = "grasp.save_virtual", label = "Save Virtual Contacts…", menu = "Grasp/Virtual Contacts", section = 4, enabled = conditions.hand, reads = true, parameters = {path, hand},
+  {name = "grasp.save_virtual", label = "Save Virtual Contacts…", menu = "Grasp/Virtual Contacts", section = 4, enabled = conditions.hand, reads = true, parameters = {saved, hand},
    run = function(session, args)
      arguments.find_robot(session, args.hand):save_virtual_contacts(args.path)
      return args.path

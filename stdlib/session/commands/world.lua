@@ -4,9 +4,8 @@ local history = require "clench.session.history"
 local placing = require "clench.session.placing"
 local raise = require "clench.raise"
 local script = require "clench.session.script"
-local with_ending = require "clench.session.with_ending"
 
-local path = {name = "path", type = "string", text = "a file"}
+local world_path = {name = "path", type = "string", files = {kinds = {"world"}, catalog = {"worlds"}}, text = "a file"}
 local options = {name = "options", type = "table", optional = true, text = "options of the function that reads it"}
 
 local function pose_of(value) return clench.type(value) == "pose" and value or clench.pose(value) end
@@ -50,8 +49,9 @@ local function place_free(session, thing)
   clench.log.info(("'%s' is beside the rest, its origin at %s m%s"):format(thing.name, point_text(thing), why))
 end
 
-local function import(kind, label)
+local function import(kind, label, files)
   local method = "add_" .. kind
+  local path = {name = "path", type = "string", files = files, text = "a file"}
   -- the options of the function that reads it, with the pose
   local function reading_of(args, at)
     if not at then return args.options end
@@ -86,7 +86,7 @@ end
 return {
   {name = "world.new", label = "New", menu = "File", section = 1, shortcut = "ctrl+n", run = function(session) history.take(session, clench.world()) session.path = nil end,
    script = function() return "world = clench.world()" end},
-  {name = "world.open", label = "Open…", menu = "File", section = 1, shortcut = "ctrl+o", parameters = {path, options},
+  {name = "world.open", label = "Open…", menu = "File", section = 1, shortcut = "ctrl+o", parameters = {world_path, options},
    run = function(session, args)
      history.take(session, clench.load(args.path, args.options))
      session.path = args.path
@@ -98,15 +98,15 @@ return {
      return save(session, args.path or session.path or raise "session: world.save: path: expected a file, as the world has no file yet")
    end},
   {name = "world.save_as", label = "Save As…", menu = "File", section = 2, shortcut = "ctrl+shift+s", enabled = conditions.world, reads = true,
-   parameters = {{name = "path", type = "string", text = "a file; .wld is appended to a name without an extension"}},
-   run = function(session, args) return save(session, with_ending(args.path, ".wld")) end},
+   parameters = {{name = "path", type = "string", files = {kinds = {"world"}, writes = true, ending = ".wld"}, text = "a file; .wld is appended to a name without an extension"}},
+   run = function(session, args) return save(session, args.path) end},
   {name = "world.save_image", label = "Save Image…", menu = "File", section = 5, enabled = conditions.world, reads = true, long = true,
-   parameters = {{name = "path", type = "string", text = "a file; .png is appended to a name without an extension"},
+   parameters = {{name = "path", type = "string", files = {endings = {".png"}, writes = true, ending = ".png"}, text = "a file; .png is appended to a name without an extension"},
                  {name = "options", type = "table", optional = true, text = "options of clench.render"}},
    run = function(session, args)
-     local to = with_ending(args.path, ".png")
-     clench.render(session.world, args.options):save(to)
-     return to
+     clench.render(session.world, args.options):save(args.path)
+     return args.path
    end},
-  import("robot", "Import Robot…"), import("object", "Import Object…"), import("obstacle", "Import Obstacle…"),
+  import("robot", "Import Robot…", {kinds = {"robot"}, catalog = {"hands", "arms"}}), import("object", "Import Object…", {kinds = {"body"}, catalog = {"objects"}}),
+  import("obstacle", "Import Obstacle…", {kinds = {"body"}, catalog = {"obstacles"}}),
 }

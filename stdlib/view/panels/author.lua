@@ -1,4 +1,5 @@
 --- Authors grasps: frames, pregrasp, closing phases, a tug test, name, confidence and notes; the list of authored grasps is saved in any format.
+local ask_path = require "clench.view.ask_path"
 local edit = require "clench.view.edit"
 local frames = require "clench.view.frames"
 local phases = require "clench.session.phases"
@@ -186,7 +187,7 @@ local function draw_list(view, ui, state)
   end
   if forgotten then view:run("grasp.forget", {name = forgotten}) end
   if ui:button "Save…##author" then
-    view.ask = {title = "Save Grasps", text = "authored.jsonl", done = function(path) session:run("grasp.save_grasps", {path = path, grasps = session.authored}) end}
+    ask_path.open(view, "Save Grasps", "authored.jsonl", "grasp.save_grasps", function(path) session:run("grasp.save_grasps", {path = path, grasps = session.authored}) end)
   end
   ui:tooltip "All of them: .jsonl keeps everything; .yaml is isaac_grasp; .csv, .npz"
 end

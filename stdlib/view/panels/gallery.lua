@@ -1,4 +1,5 @@
 --- Grasps of planners and of files, with small pictures; a click moves the hand to a grasp, and two grasps can be compared.
+local ask_path = require "clench.view.ask_path"
 local compare = require "clench.view.compare"
 local dialog = require "clench.view.dialog"
 
@@ -90,9 +91,9 @@ local function draw_buttons(view, ui, source)
   ui:same_line()
   ui:disabled(not source, function(ui)
     if ui:button "Save…##gallery" then
-      view.ask = {title = "Save Grasps", text = "grasps.jsonl", done = function(path)
+      ask_path.open(view, "Save Grasps", "grasps.jsonl", "grasp.save_grasps", function(path)
         view.session:run("grasp.save_grasps", source.job and {path = path, job = source.job} or {path = path, grasps = source.grasps})
-      end}
+      end)
     end
   end)
 end

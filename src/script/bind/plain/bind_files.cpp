@@ -2,6 +2,7 @@
 
 #include "clench/base/convert.h"
 #include "clench/base/file.h"
+#include "clench/base/folder.h"
 #include "clench/base/text.h"
 #include "clench/contact/friction_edges.h"
 #include "clench/io/graspit/eigengrasps.h"
@@ -9,7 +10,9 @@
 #include "clench/io/graspit/grasp_lists.h"
 #include "clench/io/graspit/inventor_primitives.h"
 #include "clench/io/graspit/virtual_contacts.h"
+#include "clench/io/text/confine.h"
 #include "clench/io/text/csv.h"
+#include "clench/io/text/find_file.h"
 #include "clench/script/bind/output.h"
 #include "clench/script/bind/plain/plain.h"
 #include "clench/script/bind/read_spec.h"
@@ -17,6 +20,7 @@
 #include "clench/script/lua/check.h"
 #include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
+#include "clench/script/lua/home.h"
 #include "clench/script/lua/lua_budget.h"
 #include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
@@ -58,6 +62,29 @@ static int check_writable_file(lua_State* L) {
 static std::string bytes_of(const fs::path& path, const ReadOptions&) { return read_bytes(path); }
 
 static int read_whole(lua_State* L) { return push(L, std::string_view(read_with(L, bytes_of))); }
+
+// like the path of a file: "models/..." and "worlds/..." are also those that come with Clench
+static fs::path find_folder(const std::string& name, const ReadOptions& reading) {
+  const fs::path folder = name.empty() ? "." : fs::path(name);
+  std::error_code ignored;
+  const bool may_be_installed = *folder.begin() == "models" || *folder.begin() == "worlds";
+  const bool is_installed =
+      may_be_installed && !reading.home.empty() && !fs::exists(folder, ignored);
+  const fs::path found = is_installed ? reading.home / folder : folder;
+  if (!lies_within(found, reading.confine)) fail_outside(name, reading);
+  return found;
+}
+
+static int list(lua_State* L) {
+  const std::string name = check_string(L, 1, "folder");
+  Table options(L, 2);
+  ReadOptions reading;
+  reading.confine = read_confine(L, options);
+  reading.home = home_folder();
+  options.done();
+  const FolderContents contents = list_folder(find_folder(name, reading));
+  return push_record(L, {{"folders", contents.folders}, {"files", contents.files}});
+}
 
 // --- comma-separated values, for clench.csv ---
 
@@ -331,6 +358,17 @@ The bytes of a file, of at most 1 GB. Folders, pipes, devices and sockets are re
 > clench.files.save_text("build/note.txt", "held")
 > clench.files.read_text "build/note.txt"  --> held
 > clench.files.read_text "/dev/zero"  --> error: expected a file, got a special file: /dev/zero)"},
+    {"list", guarded<list>, R"(
+Names in a folder, sorted; hidden ones too. `files` are all that are not folders.
+@param folder string  folder to list; "" is the current one
+@param options? table  how the folder is read
+@like clench.load  confine
+@return {folders: string[], files: string[]}
+@effect files
+> clench.files.list("worlds").files[1]  --> barrett_mug.wld
+> #clench.files.list("models/hands/barrett").folders  --> 1
+> clench.files.list "README.md"  --> error: README.md: expected a folder, got a file
+> clench.files.list "no/such"  --> error: no such folder: no/such)"},
     {"csv_records", guarded<csv_records>, R"(
 Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of their values.
 @param name string  for errors

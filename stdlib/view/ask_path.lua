@@ -1,0 +1,50 @@
+--- The question for the path of a file to write: a field, files to choose from, and a question before one is replaced.
+local paths = require "clench.view.paths"
+local ask_path = {}
+
+--- Opens the question.
+---@param title string
+---@param text string  the suggested path
+---@param files table|string  which files are listed, as of a command's parameter; or a command that has one
+---@param done fun(path: string): string?  writes the file; may return the path that was written
+function ask_path.open(view, title, text, files, done)
+  if type(files) == "string" then files = view.session.commands[files].parameters[1].files end
+  view.ask = {title = title, text = text, files = files, done = done, list = {}}
+end
+
+local function save(view, ask)
+  ask.error = nil
+  local file = not ask.question and paths.replaced(ask.files, ask.text)
+  if file then
+    ask.question = {path = ask.text, file = file}
+    return
+  end
+  local ok, result = pcall(ask.done, ask.text)
+  if ok then
+    view.ask, view.status = nil, "Saved " .. (type(result) == "string" and result or ask.text)
+  else
+    ask.error = tostring(result)
+  end
+end
+
+--- Draws the question, if it is open.
+function ask_path.draw(view, ui)
+  local ask = view.ask
+  if not ask then return end
+  local width = 420 * view.scale
+  local open = ui:window(ask.title, {x = (ui.size[1] - width) / 2, y = ui.size[2] / 4, width = width, modal = true, can_close = true}, function(ui)
+    ui:width(340 * view.scale)
+    local text, _, entered = ui:text_input("path", ask.text, {on_enter = true, focus = not ask.shown})
+    ask.text, ask.shown = text, true
+    local chosen, accepted = paths.draw(view, ui, ask.files, ask.list, ask.text, ask.error and 3 or ask.question and 1 or 0)
+    ask.text = chosen or ask.text
+    ask.question = paths.draw_question(ui, ask.question, ask.text)
+    if ui:button(ask.question and "Replace##ask" or "Save##ask") or entered or accepted then save(view, ask) end
+    ui:same_line()
+    if ui:button "Cancel##ask" then view.ask = nil end
+    if ask.error then ui:text(ask.error, {color = {0.84, 0.37, 0}, wrap = true}) end
+  end)
+  if not open then view.ask = nil end
+end
+
+return ask_path
