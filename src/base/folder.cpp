@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 [[noreturn]] static void fail_list(const fs::path& folder, const std::error_code& code) {
   const std::string shown = folder.generic_string();
   std::error_code ignored;
-  if (code == std::errc::no_such_file_or_directory) fail(ErrorKind::file, "no such folder: {}", shown);
+  if (code == std::errc::no_such_file_or_directory)
+    fail(ErrorKind::file, "no such folder: {}", shown);
   if (code == std::errc::not_a_directory && fs::exists(folder, ignored))
     fail(ErrorKind::file, "{}: expected a folder, got a file", shown);
   if (code == std::errc::not_a_directory) fail(ErrorKind::file, "no such folder: {}", shown);

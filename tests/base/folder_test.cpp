@@ -50,7 +50,7 @@ TEST_CASE("what is not a folder, or cannot be read, is reported as such") {
   }
   fs::permissions(folder.path() / "closed", fs::perms(0777));
   CHECK(fault == place + "/closed: the folder cannot be read: Permission denied");
-  CHECK_THROWS_WITH_AS(list_folder(std::string(300, 'x')),
-                       (std::string(300, 'x') + ": the folder cannot be read: File name too long").c_str(),
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      list_folder(std::string(300, 'x')),
+      (std::string(300, 'x') + ": the folder cannot be read: File name too long").c_str(), Error);
 }
