@@ -123,13 +123,13 @@ test("pictures are kept when a list grows or changes its order, and their places
   session.lists[1] = {name = "growing", grasps = grasps}
   for _ = 1, 3 do view:frame() end
   local first
-  for _, picture in pairs(view.gallery.by_key) do first = picture end
+  for _, kept in pairs(view.gallery.by_key) do first = kept.picture end
   local place = items_of(view, "^grasp 1$")[1]
   table.insert(grasps, 1, list[2])
   view:frame()
   local function check_kept()
     local count, is_kept = 0, false
-    for _, picture in pairs(view.gallery.by_key) do count, is_kept = count + 1, is_kept or picture == first end
+    for _, kept in pairs(view.gallery.by_key) do count, is_kept = count + 1, is_kept or kept.picture == first end
     t.equal({count, is_kept}, {2, true})
   end
   check_kept()
@@ -139,5 +139,38 @@ test("pictures are kept when a list grows or changes its order, and their places
   grasps[1], grasps[2] = grasps[2], grasps[1]
   view:frame()
   check_kept()
+  view:close()
+end)
+
+test("pictures are renewed, one per frame, when an object has moved, but not while it moves or when the hand does", function(t)
+  local session, view = open()
+  local path, list = file_of_grasps()
+  os.remove(path)
+  session.lists[1] = {name = "two", grasps = {list[1], list[2]}}
+  for _ = 1, 4 do view:frame() end
+  local function pictures()
+    local set, count = {}, 0
+    for _, kept in pairs(view.gallery.by_key) do set[kept.picture], count = true, count + 1 end
+    return set, count
+  end
+  local before, count = pictures()
+  t.equal(count, 2)
+  local function kept_after_frame()
+    view:frame()
+    local shared = 0
+    for picture in pairs((pictures())) do shared = shared + (before[picture] and 1 or 0) end
+    return shared
+  end
+  session:run "grasp.autograsp"
+  t.equal(kept_after_frame(), 2)
+  session:begin_gesture "Move"
+  session.object.pose = session.object.pose * clench.pose {xyz = {0, 0, 0.01}}
+  t.equal(kept_after_frame(), 2)
+  session:end_gesture()
+  t.equal(kept_after_frame(), 1)
+  t.equal(kept_after_frame(), 0)
+  local renewed = pictures()
+  for _ = 1, 3 do view:frame() end
+  t.equal((pictures()), renewed)
   view:close()
 end)

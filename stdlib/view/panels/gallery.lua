@@ -32,18 +32,32 @@ local function new_picture(view, grasp)
   return ok and picture or {problem = tostring(problem)}
 end
 
+-- identifies what is around the hand: names and poses of objects and obstacles
+local function scene_of(world)
+  local parts = {}
+  for _, bodies in ipairs {world.objects, world.obstacles} do
+    for _, body in ipairs(bodies) do
+      local p, q = body.pose.position, body.pose.quat
+      parts[#parts + 1] = string.pack("zddddddd", body.name, p.x, p.y, p.z, q[1], q[2], q[3], q[4])
+    end
+  end
+  return table.concat(parts)
+end
+
 -- Pictures of the first grasps of a list; false for one that is not made yet. One is made per frame, so that no frame takes long, and kept while the list grows
--- or changes its order.
+-- or changes its order, and until an object or obstacle has moved.
 local function pictures_of(view, source)
   view.gallery = view.gallery or {by_key = {}}
-  local kept, list, has_new = view.gallery.by_key, {}, false
+  local gallery, list, has_new = view.gallery, {}, false
+  if not view.session.gesture then gallery.scene = scene_of(view.session.world) end
   for i = 1, math.min(#source.grasps, most) do
     local key = key_of(source.grasps[i])
-    if not kept[key] and not has_new then
-      has_new, kept[key] = true, new_picture(view, source.grasps[i])
-      view.needs_frame = true
+    local kept = gallery.by_key[key]
+    if not has_new and (not kept or kept.scene ~= gallery.scene) then
+      kept, has_new = {picture = new_picture(view, source.grasps[i]), scene = gallery.scene}, true
+      gallery.by_key[key], view.needs_frame = kept, true
     end
-    list[i] = kept[key] or false
+    list[i] = kept and kept.picture or false
   end
   return list
 end
