@@ -1,11 +1,13 @@
---- Outlines of the selection: around each body, the convex outline of its surface on the screen.
+--- Outlines of the selection, and of the links that a DOF moves while the mouse is on its slider: around each body, the convex outline of its surface on the screen.
 local camera = require "clench.view.camera"
+local contains = require "clench.contains"
+local moved_links = require "clench.view.moved_links"
 local replay = require "clench.view.replay"
 local outline = {}
 
 local direction_count = 96
 local max_vertices = 50000  -- maximum number of vertices of a mesh that are searched; larger meshes are outlined by their boxes
-local color = {0.95, 0.6, 0, 0.95}
+local selected_color, moved_color = {0.95, 0.6, 0, 0.95}, {0, 0.45, 0.7, 0.95}
 
 -- directions spread evenly over a sphere
 local directions = {}
@@ -78,7 +80,7 @@ function outline.hull(points)
   return lower
 end
 
-local function draw_body(view, ui, body)
+local function draw_body(view, ui, body, color)
   local mesh = body.visual_mesh or body.mesh
   if not mesh then return end
   local pose, pixels = replay.shown(view, body).pose, {}
@@ -92,11 +94,32 @@ local function draw_body(view, ui, body)
   if #line >= 6 then ui:line(line, {color = color, width = 2, closed = true}) end
 end
 
---- Draws the outlines of the selection.
+--- Marks a DOF, whose links the next frame outlines, if the mouse is on the slider that was drawn last.
+function outline.mark(view, ui, robot, dof)
+  if ui:hovered() or ui:active() then view.marked = {robot = robot, dof = dof} end
+end
+
+--- At the begin of a frame: the mark of the last one is drawn, and the panels set a new one.
+function outline.begin(view) view.drawn_mark, view.marked = view.marked, nil end
+
+--- At the end of a frame: requests another one if the mark has changed.
+function outline.finish(view)
+  local drawn, marked = view.drawn_mark or {}, view.marked or {}
+  if drawn.robot ~= marked.robot or drawn.dof ~= marked.dof then view.needs_frame = true end
+end
+
+local function draw_moved(view, ui)
+  local mark, world = view.drawn_mark, view.session.world
+  if not mark or not world or not contains(world.robots, mark.robot) then return end
+  for _, body in ipairs(moved_links(mark.robot, mark.dof)) do draw_body(view, ui, body, moved_color) end
+end
+
+--- Draws the outlines.
 function outline.draw(view, ui)
   for _, thing in ipairs(view.session.selection) do
-    for _, body in ipairs(clench.type(thing) == "robot" and thing.bodies or {thing}) do draw_body(view, ui, body) end
+    for _, body in ipairs(clench.type(thing) == "robot" and thing.bodies or {thing}) do draw_body(view, ui, body, selected_color) end
   end
+  draw_moved(view, ui)
 end
 
 return outline

@@ -1,4 +1,5 @@
 --- Files to choose from below the path of a dialog: recent ones, those that come with Clench, and those of the folder that the text names.
+local contains = require "clench.contains"
 local error_text = require "clench.error_text"
 local in_utf8 = require "clench.in_utf8"
 local printable = require "clench.printable"
@@ -28,13 +29,6 @@ local function listed(view, folder)
   view.listed = {folder = folder, at = now, folders = ok and found.folders or {}, files = ok and found.files or {}, problem = not ok and error_text(found) or nil,
                  kinds = old and old.folder == folder and old.kinds or {}}
   return view.listed
-end
-
-local function contains(list, value)
-  for _, item in ipairs(list) do
-    if item == value then return true end
-  end
-  return false
 end
 
 -- is a file of a kind or with an ending that the command reads or writes?

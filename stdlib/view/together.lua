@@ -1,16 +1,10 @@
 --- Drags of several bodies and robots as one rigid group, by one displacement that ends where the first of them touches something else.
+local contains = require "clench.contains"
 local together = {}
 
 local halvings = 12  -- of a step that contact shortens
 
 local function mover(thing) return clench.type(thing) == "body" and thing.robot or thing end
-
-local function contains(list, thing)
-  for _, other in ipairs(list) do
-    if other == thing then return true end
-  end
-  return false
-end
 
 -- is a robot carried, directly or not, by another one of a list?
 local function is_carried(robot, list)

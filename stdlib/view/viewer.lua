@@ -13,6 +13,7 @@ local ghosts = require "clench.view.ghosts"
 local input = require "clench.view.input"
 local layout = require "clench.view.layout"
 local loop_task = require "clench.loop_task"
+local outline = require "clench.view.outline"
 local palette = require "clench.view.palette"
 local preferences = require "clench.view.preferences"
 local printable = require "clench.printable"
@@ -168,8 +169,10 @@ function Viewer:frame()
     follow_world(self)
     draw_world(self, ui)
     if self.panels_visible then
+      outline.begin(self)
       tools.draw(self, ui)
       layout.draw(self, ui)
+      outline.finish(self)
       splitters.draw(self, ui)  -- behind the panels
     end
     palette.draw(self, ui)

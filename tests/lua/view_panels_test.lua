@@ -358,3 +358,45 @@ test("steps are redone in the panel History while dynamics play, which ends the 
   t.ok(not session.playing)
   view:close()
 end)
+
+test("the links that a DOF moves are outlined while the mouse is on its slider", function(t)
+  local moved_links = require "clench.view.moved_links"
+  local session, view = open("barrett_mug", {1100, 1300})
+  local function names(dof)
+    local list = {}
+    for i, link in ipairs(moved_links(session.hand, dof)) do list[i] = link.name:gsub("barrett_", "") end
+    return list
+  end
+  t.equal(names(1), {"chain0_link0", "chain0_link1", "chain0_link2", "chain1_link0", "chain1_link1", "chain1_link2"})
+  t.equal(names(4), {"chain2_link0", "chain2_link1"})
+  local before = session.world:hash()
+  session.hand.dofs = {0, session.hand.dof_limits[2][2], 0.5, 0.5}
+  t.equal(names(2), {"chain0_link1", "chain0_link2"})
+  session.hand.dofs = {0, 0.5, 0.5, 0.5}
+  t.equal(session.world:hash(), before)
+
+  view:select "barrett"
+  local function settle()
+    repeat view:frame() until not view.needs_frame and not view.ui:poll()
+  end
+  local slider = item(view, "^dof2")
+  view.ui:input {kind = "move", x = slider.x + 10, y = slider.y + 8}
+  settle()
+  t.equal(view.drawn_mark.dof, 2)
+  local function blue_pixels()
+    local picture, count = view:screenshot {panels = true}, 0
+    for y = 100, 900, 2 do
+      for x = 280, 820, 2 do
+        local r, g, b = picture:pixel(x, y)
+        if r < 40 and g > 80 and g < 140 and b > 140 then count = count + 1 end
+      end
+    end
+    return count
+  end
+  local marked = blue_pixels()
+  view.ui:input {kind = "move", x = 500, y = 950}
+  settle()
+  t.equal(view.drawn_mark, nil)
+  t.ok(marked > blue_pixels() + 50, marked)
+  view:close()
+end)

@@ -1,6 +1,7 @@
 --- The selection: pose, DOFs and body properties, in the units of the user. A number is dragged to change it, or typed after a double click.
 local dof_labels = require "clench.view.dof_labels"
 local facts = require "clench.view.world_facts"
+local outline = require "clench.view.outline"
 local properties = require "clench.view.properties"
 local units = require "clench.view.units"
 
@@ -32,6 +33,7 @@ local function draw_dof(ui, view, robot, i, label, value, limits)
   ui:width(-130 * view.scale)
   local set, changed, finished = ui:slider(("%s##dof%d"):format(label.short, i), value * factor, {min = limits[1] * factor, max = limits[2] * factor, format = format})
   ui:tooltip(label.text)
+  outline.mark(view, ui, robot, i)
   if changed then
     begin(view, "Set DOFs of " .. robot.name)
     local goal = {table.unpack(robot.dofs)}
