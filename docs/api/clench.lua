@@ -1096,7 +1096,7 @@ function ui:read() end
 function ui:hash() end
 
 ---Adds input, which the next frames apply.
----@param event {kind?: "move"|"button"|"wheel"|"key"|"text"|"close"|"drop", x?: number, y?: number, code?: integer, down?: boolean, text?: string} # the synthetic event
+---@param event {kind?: "move"|"button"|"wheel"|"key"|"text"|"close"|"drop", x?: number, y?: number, code?: integer, down?: boolean, time?: number, text?: string} # the synthetic event
 function ui:input(event) end
 
 ---Draws the last frame again: its picture anew, including what panels cover. Images of widgets are uploaded anew in the next frame.

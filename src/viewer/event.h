@@ -11,6 +11,7 @@ struct InputEvent {
   double x = 0, y = 0;    ///< move: position; wheel: steps right and up; resize: new size [pixels]
   int code = 0;           ///< button: 0 left, 1 right, 2 middle; key: GLFW key code
   bool down = false;      ///< state of a button or key
+  double time = -1;       ///< button: of the event [s]; below 0: that of the frame which applies it
   std::string text = {};  ///< text: one character in UTF-8; drop: path of a file
 };
 

@@ -2,6 +2,8 @@
 // hide each other are applied in successive frames.
 #include <GLFW/glfw3.h>
 
+#include <cfloat>
+
 #include "clench/viewer/gui_state.h"
 
 namespace clench {
@@ -10,6 +12,7 @@ namespace {
 
 using Kind = InputEvent::Kind;
 
+constexpr float double_click_time = 0.3f;  // between two presses [s]
 // frames until a click or key has opened a window, or a request for the focus has been met
 constexpr int settling = 2;
 // maximum number of frames that input waits, if the focus is requested again and again
@@ -71,11 +74,21 @@ class FrameInput {
   }
   bool button(const InputEvent& event) {
     if (clicked_ || pressed_ || typed_) return false;
-    if (event.code >= 0 && event.code < IM_ARRAYSIZE(io_.MouseDown))
+    if (event.code >= 0 && event.code < IM_ARRAYSIZE(io_.MouseDown)) {
       io_.MouseDown[event.code] = event.down;
+      if (event.down) time_press(event);
+    }
     clicked_ = true;
     s_.acted = s_.frame + 1;
     return true;
+  }
+  // Dear ImGui compares the times of frames, which may be much later than those of the presses
+  void time_press(const InputEvent& event) {
+    double& last = s_.press_times[event.code];
+    const bool is_timed = event.time >= 0;
+    const bool is_double = event.time - last < double_click_time;
+    io_.MouseDoubleClickTime = !is_timed ? double_click_time : is_double ? FLT_MAX : 0;
+    last = is_timed ? event.time : -1e9;
   }
   bool wheel(const InputEvent& event) {
     if (pressed_) return false;

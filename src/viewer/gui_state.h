@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -25,6 +26,8 @@ struct Gui::State {
   int waited = 0;          // frames in which no waiting input was applied
   int acted = -100;        // last frame that applied a click, or a key that may do more than type
   int focus_asked = -100;  // last frame in which a widget asked for the focus
+  std::array<double, 5> press_times{-1e9, -1e9, -1e9, -1e9,
+                                    -1e9};  // of the last press of each button [s]
   std::vector<KeyPress> pressed;
   std::vector<std::string> dropped;
   bool close_requested = false;

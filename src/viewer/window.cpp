@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <utility>
 #include <vector>
 
@@ -74,7 +75,11 @@ class Window final : public Screen {
   void listen() {
     glfw().on_cursor(window_, [](GLFWwindow* w, double x, double y) { add(w, at(w, x, y)); });
     glfw().on_button(window_, [](GLFWwindow* w, int button, int action, int) {
-      add(w, {.kind = Kind::button, .code = button, .down = action == GLFW_PRESS});
+      const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
+      add(w, {.kind = Kind::button,
+              .code = button,
+              .down = action == GLFW_PRESS,
+              .time = now.count()});
     });
     glfw().on_scroll(window_, [](GLFWwindow* w, double x, double y) {
       add(w, {.kind = Kind::wheel, .x = x, .y = y});

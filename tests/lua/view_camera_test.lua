@@ -54,6 +54,29 @@ test("a double click, F and View/Seek make the point under the mouse the center 
   view:close()
 end)
 
+test("presses are a double click by their own times, however long frames take", function(t)
+  local ui = clench.ui {size = {64, 48}}
+  -- numbers of the frames with a double click, of presses at these times
+  local function doubles(times, frame_time)
+    local list, count = {}, 0
+    for _, time in ipairs(times) do
+      for _, down in ipairs {true, false} do ui:input {kind = "button", code = 0, down = down, time = time} end
+    end
+    repeat
+      ui:frame(frame_time, function(ui)
+        if ui.mouse.left.clicked then count = count + 1 end
+        if ui.mouse.left.double then list[#list + 1] = count end
+      end)
+    until not ui:poll()
+    return list
+  end
+  t.equal(doubles({10, 10.2}, 0.5), {2})
+  t.equal(doubles({20, 20.4}, 0.001), {})
+  t.equal(doubles({30, 30.1, 30.2}, 0.5), {2})
+  t.equal(doubles({40, 40.5, 40.6}, 0.5), {3})
+  ui:close()
+end)
+
 test("what the camera points at is framed between the panels", function(t)
   local session = clench.session()
   session:open("worlds/barrett_mug.wld", {root = "."})

@@ -129,6 +129,7 @@ int ui_input(lua_State* L) {
          event.y);
   event.code = options.integer("code", 0);
   event.down = options.boolean("down", false);
+  event.time = options.number("time", -1);
   event.text = options.string("text", "");
   options.done();
   gui.add(std::move(event));
@@ -341,6 +342,7 @@ Adds input, which the next frames apply.
 @option y? number [pixels] = 0  position, or turns of the wheel
 @option code? integer = 0  of a key of GLFW, or 0 left, 1 right, 2 middle
 @option down? boolean = false  true: pressed, false: released
+@option time? number [s]  when a button was pressed, to recognize double clicks; by default when the frame is drawn that applies it
 @option text? string  typed text, or the dropped path
 @effect edits
 > ui:input {kind = "move", x = 5, y = 5}
