@@ -2,8 +2,10 @@
 local arguments = require "clench.session.arguments"
 local class = require "clench.class"
 local described = require "clench.described"
+local error_text = require "clench.error_text"
 local gesture = require "clench.session.gesture"
 local history = require "clench.session.history"
+local is_stopped = require "clench.is_stopped"
 local jobs = require "clench.session.jobs"
 local raise = require "clench.raise"
 local script = require "clench.session.script"
@@ -28,10 +30,9 @@ local function command_named(self, name)
 end
 
 local function check_enabled(self, command)
-  if not command.enabled then return end
-  local can, reason = command.enabled(self)
+  local can, reason = self:can_run(command.name)
   if can then return end
-  raise(("session:run: %s: the command cannot run now%s"):format(command.name, type(reason) == "string" and ": " .. reason or ""))
+  raise(("session:run: %s: the command cannot run now%s"):format(command.name, reason and ": " .. reason or ""))
 end
 
 local max_depth = 20  -- nesting depth of commands that run commands
@@ -125,6 +126,22 @@ function Session:emit(event, value)
   for _, f in ipairs {table.unpack(self.subscribers[event] or {})} do f(value) end
 end
 
+--- Can a command run now?
+---@param name string
+---@return boolean can
+---@return string? reason  why not; an error of the command's `enabled` is one, too
+function Session:can_run(name)
+  local command = command_named(self, name)
+  if not command.enabled then return true end
+  local ok, can, reason = pcall(command.enabled, self)
+  if not ok then
+    if is_stopped(can) then error(can, 0) end
+    return false, error_text(can)
+  end
+  if can then return true end
+  return false, type(reason) == "string" and reason or nil
+end
+
 --- Runs a command. If it fails, the session is restored.
 ---@param name string
 ---@param args? table  arguments by name
@@ -189,16 +206,19 @@ end
 ---@param label string  label of the undo step
 ---@param lines? fun(): string  returns lines of Lua with the same effect; by default the resulting poses, DOFs, masses and materials are logged
 ---@param over? fun()  called when it ends or is cancelled
+---@return table gesture  equal to `session.gesture` while it is open
 function Session:begin_gesture(label, lines, over)
   if type(label) ~= "string" then raise("session:begin_gesture: label: expected a string, got " .. described(label)) end
-  gesture.begin(self, label, lines, over)
+  return gesture.begin(self, label, lines, over)
 end
 
 --- Ends the open gesture, if there is one.
-function Session:end_gesture() gesture.finish(self) end
+---@param given? table  of begin_gesture: nothing happens if another gesture is open
+function Session:end_gesture(given) gesture.finish(self, given) end
 
 --- Ends the open gesture, if there is one, and reverts its changes.
-function Session:cancel_gesture() gesture.cancel(self) end
+---@param given? table  of begin_gesture: nothing happens if another gesture is open
+function Session:cancel_gesture(given) gesture.cancel(self, given) end
 
 --- Adds a job to `session.jobs`; its progress and its end become events while `clench.loop` runs.
 ---@param job job

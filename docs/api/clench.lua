@@ -1068,7 +1068,7 @@ function robot_dynamics:has_closed() end
 ---@field size number[] # Width and height.
 ---@field items table[] # Widgets of the last frame. {label, kind, window, x, y, width, height, enabled}  rectangles [pixels]
 ---@field pressed table[] # Keys that went down in this frame. {key, ctrl, shift, alt}  key: code of GLFW
----@field mouse table # The mouse in this frame. {x, y, dx, dy, wheel, left, right, middle}  positions [pixels]; of a button {down, clicked, released, double}
+---@field mouse table # The mouse in this frame. {x, y, dx, dy, wheel, left, right, middle}  positions [pixels]; of a button {down, clicked, released, double, again}; again: clicked soon after the last click, also the third time
 ---@field wants_mouse boolean # Is the mouse over a panel?
 ---@field wants_text boolean # Is text being typed into a widget?
 ---@field close_requested boolean # Has the user asked to close the window?
@@ -1704,6 +1704,15 @@ function clench.files.read_text(path, options) end
 ---@param options? {confine?: string} # how the folder is read
 ---@return {folders: string[], files: string[]}
 function clench.files.list(folder, options) end
+
+---Is there a file, folder or device of that path? A link without a target counts as none. Only the current folder is searched.
+---@param path string # of a file or folder
+---@return boolean
+function clench.files.exists(path) end
+
+---Creates a folder and those above it, unless they exist.
+---@param path string # folder to create
+function clench.files.make_folder(path) end
 
 ---Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of their values.
 ---@param name string # for errors

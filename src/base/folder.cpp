@@ -35,4 +35,12 @@ FolderContents list_folder(const fs::path& folder) {
   return contents;
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code)
+    fail(ErrorKind::file, "{}: the folder cannot be created: {}", folder.generic_string(),
+         system_reason(code.value()));
+}
+
 }  // namespace clench

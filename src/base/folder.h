@@ -1,4 +1,4 @@
-// Contents of a folder.
+// Contents of folders, and new folders.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -16,5 +16,9 @@ struct FolderContents {
 /// throws Error  "no such folder: models/x", "README.md: expected a folder, got a file", or
 ///               "/root: the folder cannot be read: Permission denied"
 FolderContents list_folder(const std::filesystem::path& folder);
+
+/// Creates a folder and those above it, unless they exist.
+/// throws Error  "a/b: the folder cannot be created: Permission denied"
+void make_folder(const std::filesystem::path& folder);
 
 }  // namespace clench

@@ -208,6 +208,10 @@ bool Gui::button_down(int button) const { return input_of(*state_).MouseDown[but
 bool Gui::button_clicked(int button) const { return input_of(*state_).MouseClicked[button]; }
 bool Gui::button_released(int button) const { return input_of(*state_).MouseReleased[button]; }
 bool Gui::double_clicked(int button) const { return input_of(*state_).MouseDoubleClicked[button]; }
+bool Gui::clicked_again(int button) const {
+  const ImGuiIO& io = input_of(*state_);
+  return io.MouseClicked[button] && io.MouseClickedCount[button] > 1;
+}
 bool Gui::wants_mouse() const { return input_of(*state_).WantCaptureMouse; }
 bool Gui::wants_text() const { return input_of(*state_).WantTextInput; }
 

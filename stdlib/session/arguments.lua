@@ -5,10 +5,19 @@ local suggest = require "clench.suggest"
 local with_ending = require "clench.session.with_ending"
 local arguments = {}
 
+local function is_list_of_texts(value)
+  for _, item in ipairs(type(value) == "table" and value or {}) do
+    if type(item) ~= "string" then return false end
+  end
+  return type(value) == "table"
+end
+
+local function is_ending(value) return type(value) == "string" and value:find "^%.[^./]+$" ~= nil end
+
 local types = {number = true, integer = true, string = true, boolean = true, table = true, pose = true, vec3 = true, body = true, robot = true, any = true}
 local command_fields = {name = true, label = true, shortcut = true, menu = true, section = true, enabled = true, run = true, parameters = true, reads = true, script = true, replace = true, long = true}
 local known_fields = {name = true, type = true, unit = true, min = true, max = true, default = true, optional = true, text = true, choices = true, suggested = true, hint = true, in_dialog = true, files = true}
-local known_of_files = {kinds = true, endings = true, ending = true, catalog = true, writes = true}
+local is_field_of_files = {kinds = is_list_of_texts, endings = is_list_of_texts, catalog = is_list_of_texts, ending = is_ending, writes = function(value) return type(value) == "boolean" end}
 
 -- "ctrl+shift+s": modifiers in this order and a key, in lower case
 local function check_shortcut(command)
@@ -34,8 +43,13 @@ local function check_files(name, parameter)
   local files = parameter.files
   if files == nil then return end
   if type(files) ~= "table" then raise(("session:command: %s: parameter %s: files: expected a table, got %s"):format(name, parameter.name, described(files))) end
-  for field in pairs(files) do
-    if not known_of_files[field] then raise(("session:command: %s: parameter %s: files: unknown key '%s'"):format(name, parameter.name, tostring(field))) end
+  for field, value in pairs(files) do
+    local fits = is_field_of_files[field]
+    if not fits then raise(("session:command: %s: parameter %s: files: unknown key '%s'"):format(name, parameter.name, tostring(field))) end
+    if not fits(value) then
+      raise(("session:command: %s: parameter %s: files: %s: expected %s, got %s"):format(name, parameter.name, field,
+                                                                                   field == "writes" and "a boolean" or field == "ending" and "an ending such as '.wld'" or "a list of strings", described(value)))
+    end
   end
 end
 

@@ -1,5 +1,6 @@
 --- Undo: the states of a session between its commands. A state has the world's handle and a clone of the world, so that handles in a script stay valid after
 --- undo, including those of removed bodies.
+local contains = require "clench.contains"
 local history = {}
 
 local max_states = 1000  -- maximum number of states that can be undone; clones share meshes and unchanged data
@@ -7,11 +8,7 @@ local max_states = 1000  -- maximum number of states that can be undone; clones 
 function history.new() return {done = {}, undone = {}} end
 
 -- the item, if the list still contains it; else nil
-local function alive(list, thing)
-  for _, item in ipairs(list) do
-    if item == thing then return thing end
-  end
-end
+local function alive(list, thing) return contains(list, thing) and thing or nil end
 
 -- The first robot with fingers; an arm has a single chain. Otherwise the first robot.
 local function first_hand(world)
@@ -49,7 +46,7 @@ function history.refresh(session)
   for _, item in ipairs(session.selection) do
     if alive(world.bodies, item) or alive(world.robots, item) then kept[#kept + 1] = item end
   end
-  session.selection = kept
+  if #kept < #session.selection then session.selection = kept end
 end
 
 function history.add(session, entry)

@@ -1,5 +1,6 @@
 --- The question for the path of a file to write: a field, files to choose from, and a question before one is replaced.
 local paths = require "clench.view.paths"
+local status = require "clench.view.status"
 local ask_path = {}
 
 --- Opens the question.
@@ -8,20 +9,24 @@ local ask_path = {}
 ---@param files table|string  which files are listed, as of a command's parameter; or a command that has one
 ---@param done fun(path: string): string?  writes the file; may return the path that was written
 function ask_path.open(view, title, text, files, done)
-  if type(files) == "string" then files = view.session.commands[files].parameters[1].files end
+  if type(files) == "string" then
+    local parameter = (view.session.commands[files].parameters or {})[1]
+    files = parameter and parameter.files or {writes = true}  -- a script may have replaced the command
+  end
   view.ask = {title = title, text = text, files = files, done = done, list = {}}
 end
 
 local function save(view, ask)
-  ask.error = nil
-  local file = not ask.question and paths.replaced(ask.files, ask.text)
-  if file then
-    ask.question = {path = ask.text, file = file}
-    return
-  end
-  local ok, result = pcall(ask.done, ask.text)
+  local answered = ask.question
+  ask.error, ask.question = nil, not answered and paths.question(ask.files, ask.text) or nil
+  if ask.question then return end
+  local ok, result = pcall(function()
+    if answered and answered.prepare then answered.prepare() end
+    return ask.done(ask.text)
+  end)
   if ok then
-    view.ask, view.status = nil, "Saved " .. (type(result) == "string" and result or ask.text)
+    view.ask = nil
+    status.note(view, "Saved " .. (type(result) == "string" and result or ask.text))
   else
     ask.error = tostring(result)
   end
@@ -38,8 +43,9 @@ function ask_path.draw(view, ui)
     ask.text, ask.shown = text, true
     local chosen, accepted = paths.draw(view, ui, ask.files, ask.list, ask.text, ask.error and 3 or ask.question and 1 or 0)
     ask.text = chosen or ask.text
-    ask.question = paths.draw_question(ui, ask.question, ask.text)
-    if ui:button(ask.question and "Replace##ask" or "Save##ask") or entered or accepted then save(view, ask) end
+    local question, pressed = paths.draw_button(ui, ask.question, ask.text, "Save##ask")
+    ask.question = question
+    if pressed or not question and (entered or accepted) then save(view, ask) end
     ui:same_line()
     if ui:button "Cancel##ask" then view.ask = nil end
     if ask.error then ui:text(ask.error, {color = {0.84, 0.37, 0}, wrap = true}) end

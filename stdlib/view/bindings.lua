@@ -18,8 +18,9 @@ local function cancel(view)
   elseif view.leaving then
     view.leaving = nil
   elseif view.press then
+    local drag = view.press.drag
     view.press = nil
-    view.session:cancel_gesture()
+    if drag then view.session:cancel_gesture(drag.gesture) end
   elseif not dialog.cancel(view) then
     measure.clear(view)
   end

@@ -1,4 +1,5 @@
 --- The menu of a right click, in the picture and in the tree: commands for the body under the mouse, or for the complete selection if it is selected.
+local contains = require "clench.contains"
 local dialog = require "clench.view.dialog"
 local navigation = require "clench.view.navigation"
 local selection = require "clench.view.selection"
@@ -44,7 +45,7 @@ function context.draw_thing(view, ui, thing, point)
   if ui:menu_item("Seek This") then navigation.seek(view, center) end
   ui:separator()
   if robot then draw_robot(view, ui, robot) end
-  if thing.kind == "object" and ui:menu_item("Current Object", {selected = view.session.object == thing}) then
+  if not is_robot and thing.kind == "object" and ui:menu_item("Current Object", {selected = view.session.object == thing}) then
     view:run("grasp.select_object", {object = view:address(thing)})
   end
   for _, name in ipairs(body_commands) do
@@ -73,6 +74,7 @@ function context.appears(view) return view.context ~= nil and view.context.frame
 --- Draws the menu of the picture, if it is open; within a window.
 function context.draw(view, ui)
   local menu = view.context
+  if menu and menu.thing and not contains(view.session.world.bodies, menu.thing) then view.context, menu = nil, nil end  -- it was removed
   if not menu then return end
   if menu.frames == 0 then ui:open_popup "picture menu" end
   menu.frames = menu.frames + 1

@@ -1,5 +1,7 @@
 --- Dialogs of commands, made from their parameters.
 local fields = require "clench.view.fields"
+local guarded = require "clench.view.guarded"
+local keys = require "clench.view.keys"
 local leave = require "clench.view.leave"
 local paths = require "clench.view.paths"
 local results = require "clench.view.planner_results"
@@ -20,18 +22,35 @@ end
 -- the question about a file that the command would replace; nil if there is none
 local function question_of(command, state)
   for _, parameter in ipairs(file_parameters(command)) do
-    local path = state[parameter.name]
-    local file = paths.replaced(parameter.files, path)
-    if file then return {parameter = parameter.name, path = path, file = file} end
+    local question = paths.question(parameter.files, state[parameter.name])
+    if question then
+      question.parameter = parameter.name
+      return question
+    end
   end
+end
+
+-- is Enter pressed where no text is typed, and does only this dialog wait for it?
+local function enters(view, ui)
+  if ui.wants_text or view.palette or view.ask or view.leaving then return false end
+  local count = 0
+  for name in pairs(view.dialogs) do count = count + (is_planner(view.session.commands[name]) and 0 or 1) end
+  for _, press in ipairs(ui.pressed) do
+    if count == 1 and keys.shortcut(press) == "enter" then return true end
+  end
+  return false
 end
 
 local function run(view, command, state)
   local args = {}
   for _, parameter in ipairs(command.parameters or {}) do args[parameter.name] = state[parameter.name] end
-  state.error, state.question = nil, not state.question and question_of(command, state) or nil
+  local answered = state.question
+  state.error, state.question = nil, not answered and question_of(command, state) or nil
   if state.question then return end
-  local ok, result = pcall(view.session.run, view.session, command.name, args)
+  local ok, result = pcall(function()
+    if answered and answered.prepare then answered.prepare() end
+    return view.session:run(command.name, args)
+  end)
   if not ok then
     state.error = tostring(result)
     return
@@ -52,9 +71,14 @@ function dialog.open(view, command)
   dialog.fill(view, command)
 end
 
+-- a world without a file is saved as one
+local function replaced_command(view, command)
+  return command.name == "world.save" and not view.session.path and view.session.commands["world.save_as"] or command
+end
+
 function dialog.fill(view, command)
-  local can, reason = true, nil
-  if command.enabled then can, reason = command.enabled(view.session) end
+  command = replaced_command(view, command)
+  local can, reason = view.session:can_run(command.name)
   if not can then return view:fail(("%s cannot run now%s"):format((command.label or command.name):gsub("…", ""), reason and ": " .. reason or "")) end
   local asks = (command.label or ""):find "…"
   for _, parameter in ipairs(command.parameters or {}) do
@@ -115,13 +139,25 @@ local function draw(view, ui, command, state)
   draw_fields(view, ui, command, state, has_files and height or math.max(height - lines * ui.line_height, 2 * ui.line_height))
   draw_files(view, ui, command, state, lines)
   if state.error then ui:text(state.error, {color = {0.84, 0.37, 0}, wrap = true}) end
-  state.question = paths.draw_question(ui, state.question, state.question and state[state.question.parameter])
-  if ui:button(state.question and "Replace" or "OK", {width = 90 * view.scale}) or state.entered then
-    state.entered = nil
-    run(view, command, state)
-  end
+  local question, pressed = paths.draw_button(ui, state.question, state.question and state[state.question.parameter], "OK", 90 * view.scale)
+  state.question = question
+  local entered = state.entered or enters(view, ui)
+  state.entered = nil
+  if pressed or not question and entered then run(view, command, state) end
   ui:same_line()
   if ui:button("Cancel", {width = 90 * view.scale}) then view.dialogs[command.name] = nil end
+end
+
+--- A button that opens the dialog of a command or runs it. It is disabled while the command cannot run, and its tooltip gives the reason.
+---@param options? {text?: string, selected?: boolean, width?: number}  text: of the tooltip instead of the command's label
+function dialog.button(view, ui, label, name, options)
+  options = options or {}
+  local command = view.session.commands[name]
+  local can, reason = view.session:can_run(name)
+  ui:disabled(not can, function(ui)
+    if ui:button(label, {selected = options.selected, width = options.width}) then dialog.open(view, command) end
+  end)
+  ui:tooltip(("%s%s\nsession:run(%q)"):format(options.text or (command.label or name):gsub("…", ""), reason and ": " .. reason or "", name))
 end
 
 --- Closes the open dialogs; those of planners stay, because their searches continue.
@@ -143,7 +179,7 @@ function dialog.draw(view, ui)
   for i, name in ipairs(names) do
     local command, state = view.session.commands[name], view.dialogs[name]
     local open = ui:window(title(command), {x = 320 * scale + 24 * i, y = 120 * scale + 24 * i, width = 470 * scale, height = is_planner(command) and 520 * scale or 0, movable = true, resizable = true, can_close = true},
-                           function(ui) draw(view, ui, command, state) end)
+                           function(ui) guarded(ui, function(ui) draw(view, ui, command, state) end) end)
     if not open then view.dialogs[name] = nil end
   end
 end

@@ -129,7 +129,7 @@ function drags.begin(view, target, handle, point, x, y)
   local kind = handle and handle.kind or view.current_tool == "Rotate" and "ball" or "plane"
   drag.pose_at = kinds[kind](view, drag, handle)
   drag.group = members and together.begin(view, members, drag.center)
-  view.session:begin_gesture(("%s %s%s"):format(view.current_tool, target.name, members and #members > 1 and (" and %d more"):format(#members - 1) or ""))
+  drag.gesture = view.session:begin_gesture(("%s %s%s"):format(view.current_tool, target.name, members and #members > 1 and (" and %d more"):format(#members - 1) or ""))
   return drag
 end
 

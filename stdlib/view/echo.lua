@@ -79,8 +79,8 @@ function echo.result(view, command, result, args)
     local ok, text = pcall(script.literal, args or {})
     print_lua(view, ("session:run(%q%s)"):format(command.name, ok and text ~= "{}" and ", " .. text or ""))
   end
-  if is_saver(command) and type(result) == "string" then view.status = "Saved " .. result end
-  if command.name == "file.convert" then view.status = "Wrote " .. tostring((args or {}).to) end
+  if is_saver(command) and type(result) == "string" then status.note(view, "Saved " .. result) end
+  if command.name == "file.convert" then status.note(view, "Wrote " .. tostring((args or {}).to)) end
   if command.name:find "^world%.import_" then warn_of_overlaps(view, result) end
   if result == nil or is_empty(result) or command.name:find "^planner%." then return end
   view:print("  " .. echo.text(result), "result")

@@ -1,5 +1,26 @@
---- Widgets whose value becomes a command at the end of an edit; until then it is stored separately from the world.
+--- Edits by widgets. The value of some becomes a command at the end of the edit, and until then is stored separately from the world; others change the world while they are dragged.
 local edit = {}
+
+--- Begins the gesture of a widget that changes the world, unless it is open. A gesture of anything else, such as a playback, ends.
+---@param label string  label of the undo step
+---@param lines? fun(session: table, before: table): string  as of session:begin_gesture
+function edit.begin(view, label, lines)
+  local own = view.edit_gesture
+  if own and own.label == label and own.gesture == view.session.gesture then return end
+  view.edit_gesture = {label = label, gesture = view.session:begin_gesture(label, lines)}
+end
+
+--- Ends the gesture of a widget, if it is still open.
+function edit.finish(view)
+  local own = view.edit_gesture
+  view.edit_gesture = nil
+  if own then view.session:end_gesture(own.gesture) end
+end
+
+--- At the end of a frame: ends the gesture of a widget that has vanished while it was dragged.
+function edit.check_release(view)
+  if view.ui.mouse.left.released then edit.finish(view) end
+end
 
 --- A number that is dragged or typed.
 ---@param key string  identifies the value from frame to frame

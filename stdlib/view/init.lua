@@ -3,8 +3,10 @@ local check = require "clench.view.check"
 local described = require "clench.described"
 local raise = require "clench.raise"
 
+local has_ui = pcall(function() return clench.ui end)
+
 local function checked(subject, options, known)
-  if not clench.ui then raise(subject .. ": this build has no viewer (CLENCH_VIEWER=OFF)") end
+  if not has_ui then raise(subject .. ": this build has no viewer (CLENCH_VIEWER=OFF)") end
   return check.options(subject, options, known)
 end
 

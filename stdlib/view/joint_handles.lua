@@ -124,8 +124,8 @@ function joint_handles.begin(view, handle, x, y)
   local start, limits, endless = robot.dofs[dof], robot.dof_limits[dof], robot.dof_info[dof] and robot.dof_info[dof].endless
   local turned = joint.kind == "revolute" and drags.turning(view, joint.center, joint.axis, x, y)
   local from = not turned and drags.along(view, joint.center, joint.axis, x, y)
-  view.session:begin_gesture(("Set %s of %s"):format(handle.name, robot.name))
-  local drag = {target = robot, handle = handle.name}
+  local gesture = view.session:begin_gesture(("Set %s of %s"):format(handle.name, robot.name))
+  local drag = {target = robot, handle = handle.name, gesture = gesture}
   function drag.move(to_x, to_y, snaps)
     local travel = turned and turned(to_x, to_y) or from and (drags.along(view, joint.center, joint.axis, to_x, to_y) or from) - from or 0
     local value, by = start + travel / joint.scale, turned and angle_step or step

@@ -5,11 +5,10 @@ local bindings = require "clench.view.bindings"
 local compare = require "clench.view.compare"
 local context = require "clench.view.context"
 local dialog = require "clench.view.dialog"
-local error_text = require "clench.error_text"
+local guarded = require "clench.view.guarded"
 local help = require "clench.view.help"
 local leave = require "clench.view.leave"
 local menus = require "clench.view.menus"
-local printable = require "clench.printable"
 local projections = require "clench.view.projections"
 local selection = require "clench.view.selection"
 local splitters = require "clench.view.splitters"
@@ -44,11 +43,12 @@ function layout.add(panel)
   user_panels[#user_panels + 1] = panel
 end
 
--- shows an error of a panel in the panel
-local function draw_panel(view, ui, panel)
-  local ok, message = pcall(panel.draw, ui, view)
-  if not ok then ui:text(printable(error_text(message), "\n\t"), {color = {0.84, 0.37, 0}, wrap = true}) end
+-- a function that draws, guarded
+local function guarding(draw)
+  return function(ui) guarded(ui, draw) end
 end
+
+local function draw_panel(view, ui, panel) guarded(ui, panel.draw, view) end
 
 local function placed(view, place)
   local list = {}
@@ -142,12 +142,7 @@ local function draw_bottom(view, ui, x, y, width, height)
 end
 
 local function command_button(view, ui, label, name)
-  local command = view.session.commands[name]
-  local enabled = not command.enabled or (command.enabled(view.session)) and true or false
-  ui:disabled(not enabled, function(ui)
-    if ui:button(label) then dialog.open(view, command) end
-  end)
-  ui:tooltip(("%s  %s\nsession:run(%q)"):format(command.label or name, bindings.shown(view, name), name))
+  dialog.button(view, ui, label, name, {text = ("%s  %s"):format(view.session.commands[name].label or name, bindings.shown(view, name))})
   ui:same_line()
 end
 
@@ -170,7 +165,7 @@ local function choose(view, ui, text, list, current, command, argument)
 end
 
 local function draw_bar(view, ui, y, width)
-  ui:window("tool bar", {x = 0, y = y, width = width, height = bar_height * view.scale, title = false, scroll = false}, function(ui)
+  ui:window("tool bar", {x = 0, y = y, width = width, height = bar_height * view.scale, title = false, scroll = false}, guarding(function(ui)
     for _, tool in ipairs(view.tools) do
       if ui:button(tool .. "##tool", {selected = view.current_tool == tool}) then tools.choose(view, tool) end
       ui:tooltip(("%s\n%s\nview:tool %q"):format(bindings.shown(view, "tool " .. tool), tools.hints[tool] or tool, tool))
@@ -187,13 +182,11 @@ local function draw_bar(view, ui, y, width)
       selection.draw_bar(view, ui)
       context.draw(view, ui)
     end
-  end)
+  end))
 end
 
 local function draw_status(view, ui, y, width, height)
-  ui:window("status bar", {x = 0, y = y, width = width, height = height, title = false, scroll = false}, function(ui)
-    status.draw(view, ui)
-  end)
+  ui:window("status bar", {x = 0, y = y, width = width, height = height, title = false, scroll = false}, guarding(function(ui) status.draw(view, ui) end))
 end
 
 local function draw_questions(view, ui)

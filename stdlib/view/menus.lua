@@ -3,6 +3,7 @@ local ask_path = require "clench.view.ask_path"
 local bindings = require "clench.view.bindings"
 local dialog = require "clench.view.dialog"
 local keys = require "clench.view.keys"
+local label = require "clench.view.label"
 local menu_tree = require "clench.view.menu_tree"
 local navigation = require "clench.view.navigation"
 local preferences = require "clench.view.preferences"
@@ -25,7 +26,7 @@ local function draw_recent(view, ui)
   ui:disabled(#view.recent == 0, function(ui)
     ui:menu("Open Recent", function(ui)
       for i, path in ipairs(view.recent) do
-        if ui:menu_item(("%s##recent%d"):format(path, i)) then preferences.open_recent(view, path) end
+        if ui:menu_item(label(path, "recent" .. i)) then preferences.open_recent(view, path) end
       end
     end)
   end)
@@ -40,7 +41,11 @@ local function ask_view(view)
 end
 
 local function ask_script(view)
-  ask_path.open(view, "Save Session as Script", "session.lua", {endings = {".lua"}, writes = true}, function(path) view:save_script(path) end)
+  ask_path.open(view, "Save Session as Script", "session.lua", {endings = {".lua"}, writes = true, ending = ".lua"}, function(path)
+    path = with_ending(path, ".lua")
+    view:save_script(path)
+    return path
+  end)
 end
 
 local function draw_tools(view, ui)
@@ -84,10 +89,9 @@ local own = {
 }
 
 local function draw_command(view, ui, command)
-  local enabled, reason = true, nil
-  if command.enabled then enabled, reason = command.enabled(view.session) end
-  if ui:menu_item(command.label or command.name, {shortcut = bindings.shown(view, command.name), enabled = enabled and true or false}) then dialog.open(view, command) end
-  ui:tooltip(not enabled and type(reason) == "string" and reason or ("session:run(%q)"):format(command.name))
+  local enabled, reason = view.session:can_run(command.name)
+  if ui:menu_item(command.label or command.name, {shortcut = bindings.shown(view, command.name), enabled = enabled}) then dialog.open(view, command) end
+  ui:tooltip(reason or ("session:run(%q)"):format(command.name))
 end
 
 -- entries in the order of their sections, with a line between two sections

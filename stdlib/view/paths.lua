@@ -2,6 +2,7 @@
 local contains = require "clench.contains"
 local error_text = require "clench.error_text"
 local in_utf8 = require "clench.in_utf8"
+local label = require "clench.view.label"
 local printable = require "clench.printable"
 local with_ending = require "clench.session.with_ending"
 local paths = {}
@@ -19,16 +20,6 @@ local function catalog_of(view)
     if not ok then view:fail(found) end
   end
   return view.catalog
-end
-
--- contents of a folder, with the problem if it cannot be read
-local function listed(view, folder)
-  local old, now = view.listed, clench.clock()
-  if old and old.folder == folder and now - old.at < period then return old end
-  local ok, found = pcall(clench.files.list, folder)
-  view.listed = {folder = folder, at = now, folders = ok and found.folders or {}, files = ok and found.files or {}, problem = not ok and error_text(found) or nil,
-                 kinds = old and old.folder == folder and old.kinds or {}}
-  return view.listed
 end
 
 -- is a file of a kind or with an ending that the command reads or writes?
@@ -50,16 +41,23 @@ local function above(folder)
   return up == "" and "./" or up
 end
 
--- entries of a folder whose names contain a text
-local function add_entries(view, add, files, folder, part)
-  local found = listed(view, folder == "" and "./" or folder)
+-- The folder as `clench.files.list` takes it. Only in the current folder files are written, but models and worlds are also read where Clench has them.
+local function listed_name(files, folder)
+  if folder == "" then return "./" end
+  return files.writes and folder:sub(1, 1) ~= "/" and "./" .. folder or folder
+end
+
+-- entries of a folder whose names contain a text; returns the problem of one that cannot be read
+local function add_entries(add, files, folder, part, kinds)
+  local ok, found = pcall(clench.files.list, listed_name(files, folder))
+  if not ok then return error_text(found) end
   if folder == "./" then folder = "" end
   local function matches(name) return (name:sub(1, 1) ~= "." or part:sub(1, 1) == ".") and name:lower():find(part, 1, true) end
   for _, name in ipairs(found.folders) do
     if matches(name) then add(folder .. name .. "/", name .. "/") end
   end
   for _, name in ipairs(found.files) do
-    if matches(name) and is_listed(files, name, folder .. name, found.kinds) and not add(folder .. name, name) then return end
+    if matches(name) and is_listed(files, name, folder .. name, kinds) and not add(folder .. name, name) then return end
   end
 end
 
@@ -80,9 +78,11 @@ end
 --- The choices for a text. With a slash it names a folder, whose entries come first; otherwise recent files and those that come with Clench do. For a file that is written they are
 --- all entries of the folder.
 ---@param files table  `files` of the command's parameter
+---@param kinds? table<string, string|false>  kinds of files that are known, and those that become known
 ---@return {path: string, label: string}[] choices
 ---@return string? problem  why the folder has none
-function paths.choices(view, files, typed)
+function paths.choices(view, files, typed, kinds)
+  kinds = kinds or {}
   local list, seen = {}, {}
   local function add(path, label)
     if #list > max_choices then return false end
@@ -94,15 +94,25 @@ function paths.choices(view, files, typed)
   if folder then
     local up = part == "" and above(folder)
     if up then add(up, "../") end
-    add_entries(view, add, files, folder, part:lower())
-    local problem = view.listed.problem
+    local problem = add_entries(add, files, folder, part:lower(), kinds)
     add_known(view, add, files, typed:lower())
     return list, problem
   end
   if typed == "" then add("./", "./  (this folder)") end
   add_known(view, add, files, typed:lower())
-  if typed ~= "" then add_entries(view, add, files, "", typed:lower()) end
+  if typed ~= "" then add_entries(add, files, "", typed:lower(), kinds) end
   return list
+end
+
+-- the choices for the text of a list, computed again after a while
+local function current_choices(view, files, state)
+  local now = clench.clock()
+  if state.listed ~= state.filter or now - state.at > period then
+    state.kinds = state.kinds or {}
+    state.list, state.problem = paths.choices(view, files, state.filter, state.kinds)
+    state.listed, state.at = state.filter, now
+  end
+  return state.list, state.problem
 end
 
 --- Draws the list.
@@ -114,38 +124,53 @@ end
 function paths.draw(view, ui, files, state, typed, lines)
   -- the list stays as it is when a file of it is chosen
   if typed ~= state.chosen then state.filter, state.chosen = typed, nil end
-  local list, problem = paths.choices(view, files, state.filter)
+  local list, problem = current_choices(view, files, state)
   local chosen, accepted = nil, false
-  ui:child("files", {height = (rows - (lines or 0)) * (ui.line_height - 4), border = true}, function(ui)
+  -- the second press of a double click on a folder would hit an entry of that folder
+  local is_double = ui.mouse.left.double
+  ui:child("files in " .. (state.filter:match "^.*/" or ""), {height = (rows - (lines or 0)) * (ui.line_height - 4), border = true}, function(ui)
     if problem then ui:text(printable(problem), {color = gray, wrap = true}) end
     if #list > max_choices then ui:text(("the first %d: type a part of the name for others"):format(max_choices), {color = gray}) end
     for i = 1, math.min(#list, max_choices) do
       local choice = list[i]
-      if ui:selectable(printable(in_utf8(("%s##file%d"):format(choice.label, i))), choice.path == typed) then chosen = choice.path end
-      accepted = accepted or ui:hovered() and ui.mouse.left.double and choice.path == typed
+      if ui:selectable(label(choice.label, "file" .. i), choice.path == typed) and not is_double then chosen = choice.path end
+      accepted = accepted or is_double and ui:hovered() and choice.path == typed
     end
   end)
   if chosen and chosen:sub(-1) ~= "/" then state.chosen = chosen end
   return chosen, accepted and typed:sub(-1) ~= "/"
 end
 
---- The file that would be replaced by writing to a path; nil if there is none.
----@return string? file
-function paths.replaced(files, path)
-  if not files.writes or type(path) ~= "string" then return nil end
-  if files.ending then path = with_ending(path, files.ending) end
-  local folder, name = path:match "^(.*/)([^/]*)$"
-  local ok, found = pcall(clench.files.list, folder or "./")
-  return ok and contains(found.files, name or path) and path or nil
+-- does a path exist, as far as this may be known?
+local function exists(path)
+  local ok, found = pcall(clench.files.exists, path)
+  return ok and found
 end
 
---- Draws the question before a file is replaced, as long as the path is the same.
----@param question? {path: string, file: string}
+--- What the user must confirm before a path is written: a file that is replaced, or a folder that is created; nil if there is nothing.
+---@return {path: string, text: string, button: string, prepare?: fun()}? question
+function paths.question(files, path)
+  if not files.writes or type(path) ~= "string" or path:find "/$" then return nil end
+  local file = files.ending and with_ending(path, files.ending) or path
+  local folder = file:match "^(.+)/"
+  if folder and not exists(folder) then
+    return {path = path, text = folder .. " does not exist. Create it?", button = "Create", prepare = function() clench.files.make_folder(folder) end}
+  end
+  return exists(file) and {path = path, text = file .. " exists. Replace it?", button = "Replace"} or nil
+end
+
+--- Draws a question, as long as the path is the same, and the button of a dialog.
+---@param question? table
+---@param path any  value of the field that the question is about
+---@param button string  label of the button without a question
 ---@return table? question  nil: it is no longer open
-function paths.draw_question(ui, question, path)
-  if not question or question.path ~= path then return nil end
-  ui:text(printable(question.file) .. " exists. Replace it?", {color = {0.84, 0.37, 0}, wrap = true})
-  return question
+---@return boolean pressed  the button, but not by a double click on what was there before the question
+function paths.draw_button(ui, question, path, button, width)
+  if question and question.path ~= path then question = nil end
+  if question then ui:text(printable(in_utf8(question.text)), {color = {0.84, 0.37, 0}, wrap = true}) end
+  if question and ui.mouse.left.clicked then question.is_again = ui.mouse.left.again end
+  local pressed = ui:button(question and question.button or button, {width = width})
+  return question, pressed and not (question and question.is_again)
 end
 
 return paths

@@ -1,5 +1,6 @@
 --- Body properties of the selection: material, collisions, transparency, mass. Each change is one command for the complete selection.
 local edit = require "clench.view.edit"
+local script = require "clench.session.script"
 local properties = {}
 
 local gray = {0.5, 0.5, 0.5}
@@ -38,17 +39,15 @@ local function draw_collisions(view, ui, selection)
 end
 
 local function set_transparency(view, bodies, value)
-  local session = view.session
-  if not session.gesture then
-    local script = require "clench.session.script"
-    session:begin_gesture("Transparency", function()
-      local lines = {}
-      for i, body in ipairs(bodies) do lines[i] = ("%s.transparency = %s"):format(script.name_of(body), script.literal(body.transparency)) end
-      return table.concat(lines, "\n")
-    end)
-  end
+  edit.begin(view, "Transparency", function(session, before)
+    -- a planner or a sensor may move bodies meanwhile
+    local moved = script.of_change(session, before)
+    local lines = {moved ~= "" and moved or nil}
+    for _, body in ipairs(bodies) do lines[#lines + 1] = ("%s.transparency = %s"):format(script.name_of(body), script.literal(body.transparency)) end
+    return table.concat(lines, "\n")
+  end)
   for _, body in ipairs(bodies) do body.transparency = value end
-  session:emit("changed", {gesture = true})
+  view.session:emit("changed", {gesture = true})
 end
 
 local function draw_transparency(view, ui, bodies)
@@ -57,7 +56,7 @@ local function draw_transparency(view, ui, bodies)
   local value, changed, finished = ui:slider("transp. [%]", (current or 0) * 100, {min = 0, max = 100, format = "%.0f"})
   if not current then ui:text("The transparencies differ: a value sets all of them.", {color = gray, wrap = true}) end
   if changed then set_transparency(view, bodies, math.max(0, math.min(1, value / 100))) end
-  if finished then view.session:end_gesture() end
+  if finished then edit.finish(view) end
 end
 
 local function draw_mass(view, ui, bodies)

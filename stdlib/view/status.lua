@@ -17,16 +17,25 @@ end
 --- Shows an error in the same way.
 function status.fail(view, problem) status.warn(view, printable(error_text(problem), "\n\t")) end
 
---- Removes an error once something else has been done.
+--- Shows a message until the next action.
+function status.note(view, text) view.status, view.old_status = text, text end
+
+--- Removes a message once something else has been done.
 ---@param event table  "changed" of the session
 function status.settle(view, event)
   local is_action = event.command or event.undo or event.redo or event.selection or type(event.gesture) == "string"
-  if is_action and view.failed and view.status == view.failed then view.status, view.failed = "", nil end
+  if not is_action then return end
+  -- a message that is new comes from this action
+  local is_old = view.status == view.failed or view.status == view.old_status
+  if is_old then view.status, view.failed = "Ready", nil end
+  view.old_status = view.status
 end
 
 --- Shows a message that a command has logged, in the console and in the status bar.
 function status.log(view, diagnostic)
   local text = tostring(diagnostic.message or diagnostic.text or diagnostic)
+  local file = type(diagnostic.file) == "string" and diagnostic.file:match "[^/]+$"
+  if file then text = ("%s:%s %s"):format(file, diagnostic.line and ("%d:"):format(diagnostic.line) or "", text) end
   view:print(text, diagnostic.severity)
   view.status = text:match "^[^\n]*"
 end

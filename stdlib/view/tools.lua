@@ -121,7 +121,7 @@ local function move_drag(view, press, mouse)
 end
 
 local function end_press(view, press, mouse)
-  if press.kind == "drag" then view.session:end_gesture() end
+  if press.kind == "drag" then view.session:end_gesture(press.drag.gesture) end
   if press.opens_menu and view.panels_visible then context.open(view, mouse.x, mouse.y) end
   if press.kind == "seek" then navigation.seek_pixel(view, mouse.x, mouse.y) end
   if press.kind == "measure" then measure.click(view, mouse.x, mouse.y) end
@@ -143,6 +143,8 @@ function tools.update(view)
   if mouse.left.clicked then view.press = begin_press(view, mouse) end
   if mouse.right.clicked or mouse.middle.clicked then view.press = {kind = "camera", opens_menu = mouse.right.clicked} end
   local press = view.press
+  -- a command has ended the drag
+  if press and press.kind == "drag" and press.drag.gesture ~= view.session.gesture then press, view.press = nil, nil end
   if not press then return end
   -- the motion of the frame of a press led to the place of the press
   local begins = mouse.left.clicked or mouse.right.clicked or mouse.middle.clicked

@@ -8,8 +8,10 @@ local class = require "clench.class"
 local described = require "clench.described"
 local drop = require "clench.view.drop"
 local echo = require "clench.view.echo"
+local edit = require "clench.view.edit"
 local follow = require "clench.view.follow"
 local ghosts = require "clench.view.ghosts"
+local history = require "clench.session.history"
 local input = require "clench.view.input"
 local layout = require "clench.view.layout"
 local loop_task = require "clench.loop_task"
@@ -36,6 +38,7 @@ function Viewer:__tostring() return ("view of %s"):format(tostring(self.session.
 
 --- Records that the world or the panels have changed, so that the next frame is drawn anew.
 function Viewer:changed()
+  history.refresh(self.session)  -- a script may have removed bodies
   self.stamp = self.stamp + 1
   self.needs_frame = true
 end
@@ -103,6 +106,7 @@ local function follow_world(self)
   local world = self.session.world
   local hash = world and world:hash()
   if self.world_hash ~= hash then self.world_hash, self.stamp = hash, self.stamp + 1 end
+  history.refresh(self.session)
   if not world or self.shown_world == world then return end
   self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author, self.curves, self.dialogs = world, nil, {}, nil, nil, nil, nil, {}
   self:home()
@@ -173,6 +177,7 @@ function Viewer:frame()
       tools.draw(self, ui)
       layout.draw(self, ui)
       outline.finish(self)
+      edit.check_release(self)
       splitters.draw(self, ui)  -- behind the panels
     end
     palette.draw(self, ui)

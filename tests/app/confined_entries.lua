@@ -30,6 +30,7 @@ local readers = {
   ["clench.grasps"] = clench.grasps,
   ["clench.csv.read"] = clench.csv.read,
   ["clench.files.list"] = clench.files.list,
+  ["clench.files.exists"] = clench.files.exists,
   ["clench.port.replay"] = function(path) clench.port.replay(path):close() end,
   ["clench.plan.primitive{primitives}"] = function(path) clench.plan.primitive {hand = hand, object = box, primitives = path} end,
   ["clench.report.of"] = function(path)
@@ -64,6 +65,7 @@ local writers = {
   ["clench.files.save_text"] = function(path) clench.files.save_text(path, "text") end,
   ["clench.files.append_text"] = function(path) clench.files.append_text(path, "text") end,
   ["clench.files.check_writable"] = clench.files.check_writable,
+  ["clench.files.make_folder"] = clench.files.make_folder,
   ["clench.export_html"] = function(path) clench.export_html(hand.world, path .. ".html") end,
   ["clench.devices.save_postures"] = function(path) clench.devices.save_postures(path, {{sensors = {1}}}) end,
   ["clench.devices.save_calibration"] = function(path) clench.devices.save_calibration(path, {slopes = {{1}}, intercepts = {0}}) end,

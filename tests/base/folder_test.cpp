@@ -26,6 +26,21 @@ TEST_CASE("a folder lists folders and everything else, sorted, with links and sp
   CHECK(list_folder(folder.path() / "Empty").files.empty());
 }
 
+TEST_CASE("a folder is created with those above it, or its reason is reported") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("file", ""), deep = folder.path() / "a/b/c";
+  for (int i = 0; i < 2; ++i) {
+    make_folder(deep);
+    CHECK(fs::is_directory(deep));
+  }
+  CHECK_THROWS_WITH_AS(make_folder(file),
+                       (file.string() + ": the folder cannot be created: Not a directory").c_str(),
+                       Error);
+  CHECK_THROWS_WITH_AS(
+      make_folder(file / "in"),
+      (file.string() + "/in: the folder cannot be created: Not a directory").c_str(), Error);
+}
+
 TEST_CASE("what is not a folder, or cannot be read, is reported as such") {
   const TemporaryFolder folder;
   const std::string place = folder.path().string();

@@ -78,7 +78,7 @@ end
 local function run_long(context, command, args)
   local session = context.session
   local world = session.world or failure.raise("failed", "no world is open")
-  if command.enabled and not command.enabled(session) then return session:run(command.name, args) end  -- raises the job's error
+  if not session:can_run(command.name) then return session:run(command.name, args) end  -- raises the job's error
   if command.reads then
     return (result_of(context, start(context, command, args), function(made) return {result = clench.json.decode(made.result)} end)).result
   end

@@ -30,14 +30,16 @@ local function leads_out(folder, whole)
   return canonical(whole):sub(1, #root + 1) ~= root .. "/"
 end
 
--- a path below the folder, as written by the client: relative, and without ".."; also checks the folder of meshes that would be written next to it
+-- a folder of meshes may be written next to a file
+local function is_outside(folder, whole) return leads_out(folder, whole) or leads_out(folder, whole:gsub("%.[^./]*$", "") .. "_files/x") end
+
+-- a path below the folder, as written by the client: relative, and without ".."
 local function path_below(folder, name, path)
   if type(path) ~= "string" or path == "" then failure.raise("params", "%s: expected the name of a file below the server's folder", name) end
-  local is_outside = path:sub(1, 1) == "/" or path:find "[%z\n]" ~= nil
-  for part in path:gmatch "[^/]+" do is_outside = is_outside or part == ".." end
+  local names_another = path:sub(1, 1) == "/" or path:find "[%z\n]" ~= nil
+  for part in path:gmatch "[^/]+" do names_another = names_another or part == ".." end
   local whole = folder .. "/" .. path
-  is_outside = is_outside or leads_out(folder, whole) or leads_out(folder, whole:gsub("%.[^./]*$", "") .. "_files/x")
-  if is_outside then failure.raise("refused", "%s: %s does not lie below the server's folder", name, described(path)) end
+  if names_another or is_outside(folder, whole) then failure.raise("refused", "%s: %s does not lie below the server's folder", name, described(path)) end
   return whole
 end
 
@@ -54,7 +56,16 @@ end
 -- is the world saved without a path, to its own file, which is below the folder?
 local function has_own_file(server, name, args)
   local path = server.session.path
-  return name == "world.save" and args.path == nil and path ~= nil and not leads_out(server.folder, path)
+  return name == "world.save" and args.path == nil and path ~= nil and not is_outside(server.folder, path)
+end
+
+-- a command of that name that a script has registered may name other files
+local function check_parameters(command)
+  for _, parameter in ipairs(command.parameters or {}) do
+    if not known[command.name][parameter.name] and (parameter.files or suspicious[parameter.name]) then
+      failure.raise("refused", "%s: clients cannot run this command, since it names files", command.name)
+    end
+  end
 end
 
 --- The arguments of a command, with paths that lie below the server's folder.
@@ -64,6 +75,7 @@ function files.confine(server, command, args)
   if not names_files(command) then return args end
   if not server.folder then failure.raise("refused", "%s: this server reads and writes no files (it was started without a folder)", name) end
   if not known[name] then failure.raise("refused", "%s: clients cannot run this command, since it names files", name) end
+  check_parameters(command)
   if has_own_file(server, name, args) then return args end
   local out = {}
   for key, value in pairs(args) do out[key] = value end

@@ -17,12 +17,21 @@ end
 
 local function options_of(args) return args.pose and {pose = clench.type(args.pose) == "pose" and args.pose or clench.pose(args.pose)} or nil end
 
+-- the robot that the current hand can be mounted on, if there is only one
+local function other_robot(session)
+  local others = {}
+  for _, robot in ipairs(session.world.robots) do
+    if robot ~= session.hand then others[#others + 1] = robot.name end
+  end
+  return #others == 1 and others[1] or nil
+end
+
 -- the current hand by default
 local hand = {name = "hand", type = "robot", optional = true, text = "address of the robot; the current hand by default"}
 
 return {
   {name = "body.mount", label = "Mount on…", menu = "Element", section = 2, enabled = two_robots,
-   parameters = {hand, {name = "on", type = "robot", text = "address of the robot that carries it, by the last link of its first chain"},
+   parameters = {hand, {name = "on", type = "robot", in_dialog = other_robot, text = "address of the robot that carries it, by the last link of its first chain"},
                  {name = "pose", type = "pose", optional = true, text = "of its base in that link; by default they coincide"}},
    run = function(session, args)
      local robot, carrier = arguments.find_robot(session, args.hand), arguments.find_robot(session, args.on)

@@ -1,5 +1,6 @@
 --- Sliders for the amplitudes of the hand's eigengrasps, each of which can be fixed; a drag is one step of undo.
 local dialog = require "clench.view.dialog"
+local edit = require "clench.view.edit"
 
 -- the eigengrasps of a view's hand that are fixed
 local function fixed_of(view, hand)
@@ -9,7 +10,7 @@ local function fixed_of(view, hand)
 end
 
 local function set(view, hand, amplitudes, fixed, rigid)
-  if not view.session.gesture then view.session:begin_gesture("EigenGrasp " .. hand.name) end
+  edit.begin(view, "EigenGrasp " .. hand.name)
   local numbers = {}
   for i = 1, #amplitudes do
     if fixed[i] then numbers[#numbers + 1] = i end
@@ -31,7 +32,7 @@ local function draw_sliders(ui, view, hand)
         goal[i] = value
         set(view, hand, goal, fixed, view.rigid)
       end
-      if finished then view.session:end_gesture() end
+      if finished then edit.finish(view) end
     end)
     ui:same_line()
     local on, changed = ui:checkbox("fixed##eigengrasp" .. i, fixed[i] == true)
@@ -40,11 +41,6 @@ local function draw_sliders(ui, view, hand)
 end
 
 local function go_to_origin(view, hand) view:run("grasp.dofs", {hand = view:address(hand), dofs = hand.eigengrasps.origin}) end
-
-local function button(ui, view, label, name)
-  if ui:button(label) then dialog.open(view, view.session.commands[name]) end
-  ui:tooltip(("session:run(%q)"):format(name))
-end
 
 local function draw(ui, view)
   local hand = view.session.hand
@@ -55,13 +51,13 @@ local function draw(ui, view)
   ui:tooltip "The posture consists of the amplitudes only; otherwise the part that they do not describe is kept."
   if ui:button "Go To Origin" then go_to_origin(view, hand) end
   ui:same_line()
-  button(ui, view, "Set Origin", "grasp.set_origin")
+  dialog.button(view, ui, "Set Origin", "grasp.set_origin")
   if ui:button "Close to Contacts" then view:run("grasp.autograsp", {hand = view:address(hand)}) end
   ui:same_line()
-  button(ui, view, "Use Identity", "grasp.identity_eigengrasps")
-  button(ui, view, "Load…", "grasp.load_eigengrasps")
+  dialog.button(view, ui, "Use Identity", "grasp.identity_eigengrasps")
+  dialog.button(view, ui, "Load…", "grasp.load_eigengrasps")
   ui:same_line()
-  button(ui, view, "Save…", "grasp.save_eigengrasps")
+  dialog.button(view, ui, "Save…", "grasp.save_eigengrasps")
 end
 
 return {name = "EigenGrasps", place = "right", tab = true, draw = draw}

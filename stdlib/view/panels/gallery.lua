@@ -11,9 +11,9 @@ local function sources_of(session)
   local sources = {}
   for i, job in ipairs(session.jobs) do
     local ok, grasps = pcall(session.grasps_of, session, job)
-    if ok and #grasps > 0 then sources[#sources + 1] = {name = ("job %d, %s"):format(i, job.name or ""), grasps = grasps, job = i} end
+    if ok and #grasps > 0 then sources[#sources + 1] = {name = ("job %d, %s"):format(i, job.name or ""), grasps = grasps, job = i, key = job} end
   end
-  for _, list in ipairs(session.lists) do sources[#sources + 1] = {name = list.name, grasps = list.grasps} end
+  for _, list in ipairs(session.lists) do sources[#sources + 1] = {name = list.name, grasps = list.grasps, key = list} end
   return sources
 end
 
@@ -83,10 +83,10 @@ local function draw_grasp(view, ui, source, picture, number)
   local grasp = source.grasps[number]
   local label = ("grasp %d"):format(number)
   draw_picture(view, ui, source, picture, number, label)
-  local name = ("%s of %s"):format(label, source.name)
-  local epsilon = grasp.epsilon
-  local _, changed = ui:checkbox(epsilon and ("%d: %.4f"):format(number, epsilon) or tostring(number), compare.has(view, name))
-  if changed then compare.toggle(view, name, grasp, label, source.name) end
+  -- by its contents: while a search runs, better grasps take its place in the list
+  local key, epsilon = source.name .. "\0" .. key_of(grasp), grasp.epsilon
+  local _, changed = ui:checkbox(("%s###compare %d"):format(epsilon and ("%d: %.4f"):format(number, epsilon) or number, number), compare.has(view, key))
+  if changed then compare.toggle(view, key, grasp, label, source.name) end
   ui:tooltip(("%s: epsilon. Two that are checked are compared."):format(label))
 end
 
@@ -95,7 +95,7 @@ local function draw_sources(view, ui, sources, index)
   for i, source in ipairs(sources) do names[i] = source.name end
   ui:width(260 * view.scale)
   local chosen, changed = ui:combo("##gallery source", index, names)
-  if changed then view.gallery_source = names[chosen] end
+  if changed then view.gallery_source = sources[chosen].key end
   ui:same_line()
 end
 
@@ -117,7 +117,7 @@ local function draw(ui, view)
   if not session.world then return ui:text("No world is open.", {color = gray}) end
   local sources, index = sources_of(session), nil
   for i, source in ipairs(sources) do
-    if source.name == view.gallery_source then index = i end
+    if source.key == view.gallery_source then index = i end
   end
   index = index or #sources
   local source = sources[index]

@@ -1,16 +1,23 @@
 --- The history of the session: a click undoes or redoes all commands up to a step.
+-- undoes the steps after one; a playback becomes a step before, thus may follow it
+local function return_to(session, step)
+  session:end_gesture()
+  local done = session.history.done
+  while done[#done] ~= step and session:undo() do end
+end
+
 local function draw(ui, view)
   local history = view.session.history
   local count = #history.done
-  local undone, redone = 0, 0  -- numbers of steps, once the list is drawn: they change it
+  local chosen, redone  -- a step to return to, or a number of steps to repeat, once the list is drawn: they change it
   for i, step in ipairs(history.done) do
-    if ui:selectable(("%d  %s##done%d"):format(i, step.label, i), i == count) and step.before then undone = count - i end
+    if ui:selectable(("%d  %s##done%d"):format(i, step.label, i), i == count) then chosen = step end
   end
   for i = #history.undone, 1, -1 do
     if ui:selectable(("%s (undone)##undone%d"):format(history.undone[i].label, i), false) then redone = #history.undone - i + 1 end
   end
-  for _ = 1, undone do view.session:undo() end
-  for _ = 1, redone do view.session:redo() end
+  if chosen then return_to(view.session, chosen) end
+  for _ = 1, redone or 0 do view.session:redo() end
 end
 
 return {name = "History", place = "bottom", draw = draw}

@@ -1,13 +1,10 @@
 --- The selection: pose, DOFs and body properties, in the units of the user. A number is dragged to change it, or typed after a double click.
 local dof_labels = require "clench.view.dof_labels"
+local edit = require "clench.view.edit"
 local facts = require "clench.view.world_facts"
 local outline = require "clench.view.outline"
 local properties = require "clench.view.properties"
 local units = require "clench.view.units"
-
-local function begin(view, label)
-  if not view.session.gesture then view.session:begin_gesture(label) end
-end
 
 local function draw_pose(ui, view, thing)
   local position, angles = thing.pose.position, thing.pose.rpy
@@ -21,11 +18,11 @@ local function draw_pose(ui, view, thing)
     finished = finished or is_finished
   end
   if changed then
-    begin(view, "Move " .. thing.name)
+    edit.begin(view, "Move " .. thing.name)
     thing.pose = clench.pose {xyz = {values[1], values[2], values[3]}, rpy = {values[4], values[5], values[6]}}
     view.session:emit("changed", {gesture = true})
   end
-  if finished then view.session:end_gesture() end
+  if finished then edit.finish(view) end
 end
 
 local function draw_dof(ui, view, robot, i, label, value, limits)
@@ -35,13 +32,13 @@ local function draw_dof(ui, view, robot, i, label, value, limits)
   ui:tooltip(label.text)
   outline.mark(view, ui, robot, i)
   if changed then
-    begin(view, "Set DOFs of " .. robot.name)
+    edit.begin(view, "Set DOFs of " .. robot.name)
     local goal = {table.unpack(robot.dofs)}
     goal[i] = math.max(limits[1], math.min(limits[2], set / factor))
     robot:move_dofs(goal)
     view.session:emit("changed", {gesture = true})
   end
-  if finished then view.session:end_gesture() end
+  if finished then edit.finish(view) end
 end
 
 -- the DOFs, each finger below its number

@@ -15,7 +15,7 @@ local function draw(ui, view)
         if ui:button("Stop Job") then view:run("job.stop", {job = i}) end
       end
       local ok, grasps = pcall(session.grasps_of, session, job)
-      if ok and #grasps > 0 and ui:collapsing(("%d grasps"):format(#grasps), false, function(ui)
+      if ok and #grasps > 0 and ui:collapsing(("%d grasps###grasps"):format(#grasps), false, function(ui)
         for rank = 1, math.min(#grasps, 50) do
           if ui:selectable(("grasp %d"):format(rank), false) then view:run("grasp.apply", {job = i, rank = rank}) end
         end

@@ -9,13 +9,7 @@ local colors = {planning = {0, 0.45, 0.7}, grasping = {0, 0.5, 0.35}, open = {0.
 local max_solutions = 10
 
 local function button(view, ui, label, name, selected)
-  local command = view.session.commands["online." .. name]
-  local can, reason = true, nil
-  if command.enabled then can, reason = command.enabled(view.session) end
-  ui:disabled(not can, function(ui)
-    if ui:button(label .. "##online", {selected = selected, width = 68 * view.scale}) then dialog.open(view, command) end
-  end)
-  ui:tooltip(("%s\nsession:run(%q)"):format(can and command.label:gsub("…", "") or reason, command.name))
+  dialog.button(view, ui, label .. "##online", "online." .. name, {selected = selected, width = 68 * view.scale})
 end
 
 local function row(ui, name, value, color)

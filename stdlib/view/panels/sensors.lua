@@ -8,13 +8,7 @@ local units = require "clench.view.units"
 local gray, orange = {0.5, 0.5, 0.5}, {0.84, 0.37, 0}
 
 local function button(view, ui, label, name)
-  local command = view.session.commands["sensors." .. name]
-  local can, reason = true, nil
-  if command.enabled then can, reason = command.enabled(view.session) end
-  ui:disabled(not can, function(ui)
-    if ui:button(label .. "##" .. name) then dialog.open(view, command) end
-  end)
-  ui:tooltip(("%s%s\nsession:run(%q)"):format(command.label, can and "" or ": " .. reason, command.name))
+  dialog.button(view, ui, label .. "##" .. name, "sensors." .. name)
 end
 
 local function pose_text(view, pose)

@@ -5,11 +5,7 @@ local replay = require "clench.view.replay"
 local gray = {0.5, 0.5, 0.5}
 
 local function command(view, ui, label, name, text)
-  local commands = view.session.commands
-  ui:disabled(not commands[name].enabled(view.session), function(ui)
-    if ui:button(label) then dialog.open(view, commands[name]) end
-  end)
-  ui:tooltip(("%s\nsession:run(%q)"):format(text, name))
+  dialog.button(view, ui, label, name, {text = text})
   ui:same_line()
 end
 

@@ -15,15 +15,6 @@ local function draw_marks(ui, view, contacts)
   end
 end
 
-local function button(ui, view, label, name)
-  local command = view.session.commands[name]
-  local can = command.enabled(view.session)
-  ui:disabled(not can, function(ui)
-    if ui:button(label) then dialog.open(view, command) end
-  end)
-  ui:tooltip(command.label .. ("\nsession:run(%q)"):format(name))
-end
-
 local function draw(ui, view)
   local hand = view.session.hand
   if not hand then return ui:text("No hand is current.", {color = {0.5, 0.5, 0.5}}) end
@@ -32,14 +23,14 @@ local function draw(ui, view)
   local on, changed = ui:checkbox("show", view.shows_virtual ~= false)
   if changed then view.shows_virtual = on end
   if view.shows_virtual ~= false then stereo.over(view, ui, function() draw_marks(ui, view, contacts) end) end
-  button(ui, view, "Find", "grasp.find_virtual")
+  dialog.button(view, ui, "Find", "grasp.find_virtual")
   ui:same_line()
-  button(ui, view, "Mark Contacts", "grasp.mark_virtual")
+  dialog.button(view, ui, "Mark Contacts", "grasp.mark_virtual")
   ui:same_line()
-  button(ui, view, "Clear", "grasp.clear_virtual")
-  button(ui, view, "Load…", "grasp.load_virtual")
+  dialog.button(view, ui, "Clear", "grasp.clear_virtual")
+  dialog.button(view, ui, "Load…", "grasp.load_virtual")
   ui:same_line()
-  button(ui, view, "Save…", "grasp.save_virtual")
+  dialog.button(view, ui, "Save…", "grasp.save_virtual")
 end
 
 return {name = "Virtual Contacts", place = "right", tab = true, draw = draw}

@@ -86,6 +86,23 @@ static int list(lua_State* L) {
   return push_record(L, {{"folders", contents.folders}, {"files", contents.files}});
 }
 
+static int exists(lua_State* L) {
+  const std::string name = check_string(L, 1, "path");
+  const fs::path confine = get_setting(L, Setting::confine);
+  if (!lies_within(name, confine)) {
+    ReadOptions reading;
+    reading.confine = confine;
+    fail_outside(name, reading);
+  }
+  std::error_code ignored;
+  return push(L, fs::exists(name, ignored));
+}
+
+static int make_new_folder(lua_State* L) {
+  make_folder(check_output(L, 1));
+  return 0;
+}
+
 // --- comma-separated values, for clench.csv ---
 
 static char check_separator(lua_State* L, int i) {
@@ -369,6 +386,19 @@ Names in a folder, sorted; hidden ones too. `files` are all that are not folders
 > #clench.files.list("models/hands/barrett").folders  --> 1
 > clench.files.list "README.md"  --> error: README.md: expected a folder, got a file
 > clench.files.list "no/such"  --> error: no such folder: no/such)"},
+    {"exists", guarded<exists>, R"(
+Is there a file, folder or device of that path? A link without a target counts as none. Only the current folder is searched.
+@param path string  of a file or folder
+@return boolean
+@effect files
+> clench.files.exists "README.md", clench.files.exists "no/such"  --> true, false)"},
+    {"make_folder", guarded<make_new_folder>, R"(
+Creates a folder and those above it, unless they exist.
+@param path string  folder to create
+@effect files
+> clench.files.make_folder "build/notes/today"
+> clench.files.exists "build/notes/today"  --> true
+> clench.files.make_folder "README.md/x"  --> error: README.md/x: the folder cannot be created: Not a directory)"},
     {"csv_records", guarded<csv_records>, R"(
 Cells of a text of comma-separated values, line by line, as texts; clench.csv reads files, with the types of their values.
 @param name string  for errors

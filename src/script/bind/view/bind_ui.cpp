@@ -168,11 +168,12 @@ int get_mouse(lua_State* L) {
   set_field(L, "wheel", gui.wheel());
   const char* names[] = {"left", "right", "middle"};
   for (int button = 0; button < 3; ++button) {
-    push_list(L, 0, 4);
+    push_list(L, 0, 5);
     set_field(L, "down", gui.button_down(button));
     set_field(L, "clicked", gui.button_clicked(button));
     set_field(L, "released", gui.button_released(button));
     set_field(L, "double", gui.double_clicked(button));
+    set_field(L, "again", gui.clicked_again(button));
     lua_setfield(L, -2, names[button]);
   }
   return 1;
@@ -267,7 +268,7 @@ Keys that went down in this frame.
 > #ui.pressed  --> 0)"},
     {"mouse", guarded<get_mouse>, R"(
 The mouse in this frame.
-@type table  {x, y, dx, dy, wheel, left, right, middle}  positions [pixels]; of a button {down, clicked, released, double}
+@type table  {x, y, dx, dy, wheel, left, right, middle}  positions [pixels]; of a button {down, clicked, released, double, again}; again: clicked soon after the last click, also the third time
 > ui.mouse.left.down  --> false)"},
     {"wants_mouse", guarded<get_wants_mouse>, R"(
 Is the mouse over a panel?
