@@ -12,29 +12,29 @@ local function chosen(view)
 end
 
 --- Is a grasp chosen?
----@param key string  identifies it
-function compare.has(view, key)
+---@param id string  identifies it
+function compare.has(view, id)
   for _, entry in ipairs(chosen(view)) do
-    if entry.key == key then return true end
+    if entry.id == id then return true end
   end
   return false
 end
 
 --- Chooses a grasp, or removes it from the choice. A third grasp replaces the first.
----@param key string  identifies it
+---@param id string  identifies it
 ---@param grasp grasp
 ---@param short string  its name within its list
 ---@param source string  name of the list
-function compare.toggle(view, key, grasp, short, source)
+function compare.toggle(view, id, grasp, short, source)
   local list = chosen(view)
   for i, entry in ipairs(list) do
-    if entry.key == key then
+    if entry.id == id then
       table.remove(list, i)
       return
     end
   end
   if #list == 2 then table.remove(list, 1) end
-  list[#list + 1] = {key = key, label = ("%s of %s"):format(short, source), short = short, source = source, grasp = grasp, values = {}}
+  list[#list + 1] = {id = id, label = ("%s of %s"):format(short, source), short = short, source = source, grasp = grasp, values = {}}
 end
 
 -- short names, unless the grasps are from different lists

@@ -85,7 +85,8 @@ function dialog.fill(view, command)
     if not parameter.optional and parameter.default == nil then asks = true end
   end
   if not asks then return view:run(command.name) end
-  local state = fields.new(view, command)
+  local ok, state = pcall(fields.new, view, command)
+  if not ok then return view:fail(state) end  -- an error of a function that suggests values
   if is_planner(command) or command.name == "online.start" then state.hand, state.object = view.session.hand.name, view.session.object.name end
   -- in a window the user watches and stops a search: it is limited by time, not by steps
   if is_planner(command) and state.steps then state.steps, state.seconds = 10000000, 60 end

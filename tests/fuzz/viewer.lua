@@ -3,6 +3,14 @@
 -- It runs in a folder that may be written into, with models and worlds to read. After each round undo must lead back to the first world, and redo to the
 -- last one. The exit code is 3 where something broke; the last events before it are printed.
 local clench = require "clench"
+
+-- an error that would be shown in a panel is a fault
+local panel_fault
+package.loaded["clench.view.guarded"] = function(ui, draw, ...)
+  local ok, message = xpcall(draw, debug.traceback, ui, ...)
+  if not ok then panel_fault = panel_fault or tostring(message) end
+end
+
 local keys = require "clench.view.keys"
 
 local seed, events = tonumber(arg[1] or 1), tonumber(arg[2] or 300)
@@ -29,6 +37,7 @@ local function fault_of(text) return text:match "stdlib/[%w_/]+%.lua:%d+:.*" end
 
 local checked_lines = 0
 local function find_fault()
+  if panel_fault then return panel_fault end
   for i = math.min(checked_lines, #view.lines) + 1, #view.lines do
     local line = view.lines[i]
     if line.kind == "error" and fault_of(line.text) then return line.text end
@@ -40,6 +49,16 @@ local function find_fault()
   end
 end
 
+-- the world changes by steps of the history and by gestures only
+local last_world, last_step, last_hash
+local function check_history()
+  local step = session.history.done[#session.history.done]
+  if session.gesture then last_world = nil return end
+  local hash = session.world:hash()
+  if last_world == session.world and last_step == step and hash ~= last_hash then error("the world has changed without a step of the history", 0) end
+  last_world, last_step, last_hash = session.world, step, hash
+end
+
 local function settle()
   local count = 0
   repeat
@@ -48,6 +67,7 @@ local function settle()
   until not view.ui:poll() or count > 400
   local fault = find_fault()
   if fault then error(fault, 0) end
+  check_history()
 end
 
 -- the last frame must equal the same one drawn without reuse
@@ -104,13 +124,32 @@ function events_of.widget()
   return ("%s '%s' of %s"):format(item.kind, item.label, item.window), function() press_at(x, y, code, 1) end
 end
 
+local names_of_keys = {"f", "g", "s", "r", "c", "v", "1", "2", "3", "4", "5", "home", "escape", "delete", "space", "tab", "enter", "up", "down", "left", "right", "backspace", "f1",
+                       "shift+f1", "f5", "f9", "ctrl+p", "ctrl+q", "ctrl+z", "ctrl+shift+z", "ctrl+a", "ctrl+x", "ctrl+v", "shift+/", "alt+f4", "pageup", "end", "-", "="}
+for _, name in ipairs(session.order) do names_of_keys[#names_of_keys + 1] = session.commands[name].shortcut end
+
+local function press_key(name)
+  local codes = keys.codes(name)
+  for _, code in ipairs(codes) do view.ui:input {kind = "key", code = code, down = true} end
+  for i = #codes, 1, -1 do view.ui:input {kind = "key", code = codes[i], down = false} end
+  settle()
+end
+
 function events_of.drag()
   local x, y = random:uniform(0, size[1]), random:uniform(0, size[2])
   local list = items_of(function(item) return item.kind == "drag" or item.kind == "slider" end)
-  if #list > 0 and chance(0.4) then x, y = point_of(one_of(list)) end
+  local tool
+  if #list > 0 and chance(0.3) then
+    x, y = point_of(one_of(list))
+  elseif chance(0.5) and #session.world.bodies > 0 then
+    local at_x, at_y = view:project(one_of(session.world.bodies).pose.position)
+    x, y, tool = at_x or x, at_y or y, one_of {"Translate", "Rotate"}
+  end
   local by_x, by_y, code = random:uniform(-120, 120), random:uniform(-120, 120), chance(0.7) and 0 or number(1, 2)
   local held = chance(0.2) and one_of {"ctrl", "shift", "alt"}
-  return ("drag %.0f %.0f by %.0f %.0f, button %d %s"):format(x, y, by_x, by_y, code, held or ""), function()
+  local pressed = chance(0.2) and one_of(names_of_keys)  -- in the middle
+  return ("drag %.0f %.0f by %.0f %.0f, button %d %s %s %s"):format(x, y, by_x, by_y, code, held or "", pressed or "", tool or ""), function()
+    if tool then view:tool(tool) end
     local key = held and keys.modifiers[held]
     if key then view.ui:input {kind = "key", code = key, down = true} end
     move(x, y)
@@ -119,6 +158,7 @@ function events_of.drag()
     for i = 1, 3 do
       move(x + by_x * i / 3, y + by_y * i / 3)
       settle()
+      if i == 2 and pressed then press_key(pressed) end
     end
     button(false, code)
     if key then view.ui:input {kind = "key", code = key, down = false} end
@@ -126,18 +166,9 @@ function events_of.drag()
   end
 end
 
-local names_of_keys = {"f", "g", "s", "r", "c", "v", "1", "2", "3", "4", "5", "home", "escape", "delete", "space", "tab", "enter", "up", "down", "left", "right", "backspace", "f1",
-                       "shift+f1", "f5", "f9", "ctrl+p", "ctrl+q", "ctrl+z", "ctrl+shift+z", "ctrl+a", "ctrl+x", "ctrl+v", "shift+/", "alt+f4", "pageup", "end", "-", "="}
-for _, name in ipairs(session.order) do names_of_keys[#names_of_keys + 1] = session.commands[name].shortcut end
-
 function events_of.key()
   local name = one_of(names_of_keys)
-  return "key " .. name, function()
-    local codes = keys.codes(name)
-    for _, code in ipairs(codes) do view.ui:input {kind = "key", code = code, down = true} end
-    for i = #codes, 1, -1 do view.ui:input {kind = "key", code = codes[i], down = false} end
-    settle()
-  end
+  return "key " .. name, function() press_key(name) end
 end
 
 function events_of.text()
@@ -159,6 +190,21 @@ function events_of.menu()
     local menus = items_of(function(item) return item.kind == "menu" end)
     if #menus == 0 then return end
     click_item(menus[1 + math.floor(order * #menus)])
+    local entries = items_of(function(item) return item.kind == "menu item" end)
+    if #entries > 0 then click_item(entries[1 + math.floor(choice * #entries)]) end
+  end
+end
+
+-- a right click on a body or on a row of the tree, then an entry of its menu, or a key while it is open
+function events_of.context()
+  local x, y = random:uniform(0, size[1]), random:uniform(0, size[2])
+  local rows = items_of(function(item) return item.kind == "tree" end)
+  if #rows > 0 and chance(0.5) then x, y = point_of(one_of(rows)) end
+  local choice, key = random:uniform(), chance(0.2) and one_of(names_of_keys)
+  return ("context %.0f %.0f %.4f %s"):format(x, y, choice, key or ""), function()
+    press_at(x, y, 1, 1)
+    settle()
+    if key then return press_key(key) end
     local entries = items_of(function(item) return item.kind == "menu item" end)
     if #entries > 0 then click_item(entries[1 + math.floor(choice * #entries)]) end
   end
@@ -195,7 +241,7 @@ function events_of.drop()
 end
 
 local kinds = {}
-for name, weight in pairs {click = 4, widget = 12, drag = 4, key = 6, text = 3, menu = 5, palette = 3, wheel = 1, drop = 0.2} do kinds[#kinds + 1] = {name = name, weight = weight} end
+for name, weight in pairs {click = 4, widget = 12, drag = 4, key = 6, text = 3, menu = 5, context = 2, palette = 3, wheel = 1, drop = 0.2} do kinds[#kinds + 1] = {name = name, weight = weight} end
 table.sort(kinds, function(a, b) return a.name < b.name end)
 
 local function random_kind()
@@ -236,16 +282,6 @@ local function unwind()
   return steps
 end
 
--- the world changes by steps of the history and by gestures only
-local last_world, last_step, last_hash
-local function check_history()
-  local step = session.history.done[#session.history.done]
-  if session.gesture then last_world = nil return end
-  local hash = session.world:hash()
-  if last_world == session.world and last_step == step and hash ~= last_hash then error("the world has changed without a step of the history", 0) end
-  last_world, last_step, last_hash = session.world, step, hash
-end
-
 local function run_event(count)
   local kind = random_kind()
   local text, f = events_of[kind]()
@@ -256,7 +292,6 @@ local function run_event(count)
   local began = clench.clock()
   view.picture_visible = chance(0.2)  -- it takes most of the time of a frame
   f()
-  check_history()
   if view.picture_visible then compare_frames() end
   local took = clench.clock() - began
   if took > longest_event then error(("an event took %.0f s"):format(took), 0) end

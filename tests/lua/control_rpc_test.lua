@@ -422,6 +422,14 @@ test("requests read and write files only below the server's folder, and none wit
   t.equal(reader.get "world.save", folder .. "/n.wld")
   open.session.path = "/tmp/elsewhere.wld"
   t.equal(code(reader.call("world.save")), -32602)
+  -- meshes next to it, and another path of a command that a script has replaced
+  open.session.path = folder .. "/m.xml"
+  t.equal(code(reader.call("world.save")), -32602)
+  local saver = open.session.commands["world.save_as"]
+  local preview = {name = "preview", type = "string", optional = true, files = {writes = true}}
+  open.session:command {name = "world.save_as", replace = true, reads = true, parameters = {saver.parameters[1], preview}, run = function() error "it ran" end}
+  t.equal(code(reader.call("world.save_as", {path = "n", preview = "/tmp/p.png"})), -32002)
+  t.equal(code(reader.call("world.save_as", {path = "n"})), -32002)
   reader.get "grasp.find_virtual"
   t.equal(reader.get("grasp.save_virtual", {path = "v.vgr"}), folder .. "/v.vgr")
   reader.get("grasp.load_virtual", {path = "v.vgr"})

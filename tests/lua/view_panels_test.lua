@@ -307,7 +307,7 @@ test("the status bar names what overlaps, counts contacts, and confirms what was
   for _ = 1, 3 do view:frame() end
   t.equal(view.status, problem)
   view:run "grasp.open"
-  t.equal(view.status, "")
+  t.equal(view.status, "Ready")
   view:run("world.import_object", {path = "models/objects/mug.iv", pose = session.object.pose})
   t.ok(view.status:find "'mug_2' overlaps 'mug'", view.status)
   view:close()
