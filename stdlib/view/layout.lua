@@ -165,7 +165,8 @@ local function choose(view, ui, text, list, current, command, argument)
 end
 
 local function draw_bar(view, ui, y, width)
-  ui:window("tool bar", {x = 0, y = y, width = width, height = bar_height * view.scale, title = false, scroll = false}, guarding(function(ui)
+  -- one pixel of overlap: the menu bar is as high as its text, rounded
+  ui:window("tool bar", {x = 0, y = y - 1, width = width, height = bar_height * view.scale + 1, title = false, scroll = false}, guarding(function(ui)
     for _, tool in ipairs(view.tools) do
       if ui:button(tool .. "##tool", {selected = view.current_tool == tool}) then tools.choose(view, tool) end
       ui:tooltip(("%s\n%s\nview:tool %q"):format(bindings.shown(view, "tool " .. tool), tools.hints[tool] or tool, tool))

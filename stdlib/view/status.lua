@@ -49,10 +49,11 @@ local function collisions_of(view)
   if known and (known.stamp == view.stamp or is_moving and known.time > slow) then return known.text, known.count end
   local from = clench.loop.time()
   local pairs_ = replay.world(view):colliding(nil, nil, {max = max_pairs + 1})
+  local none = replay.world(view):may_collide() and "no overlap" or "collisions are off"
   local texts = {}
   for i = 1, math.min(#pairs_, max_pairs) do texts[i] = names_of(pairs_[i]) end
   if #pairs_ > max_pairs then texts[#texts + 1] = "…" end
-  view.overlaps = {stamp = view.stamp, time = clench.loop.time() - from, count = #pairs_, text = #pairs_ > 0 and "overlap: " .. table.concat(texts, ", ") or "no overlap"}
+  view.overlaps = {stamp = view.stamp, time = clench.loop.time() - from, count = #pairs_, text = #pairs_ > 0 and "overlap: " .. table.concat(texts, ", ") or none}
   return view.overlaps.text, #pairs_
 end
 

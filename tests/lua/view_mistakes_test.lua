@@ -254,3 +254,12 @@ test("an arm does not replace the current hand, and carries the only other robot
   t.equal(session.hand.name, "parallel_jaw")
   view:close()
 end)
+
+test("the status bar says that collisions are off, instead of that nothing overlaps", function(t)
+  local session, view = open()
+  t.ok(texts_of(view):find "no overlap")
+  session:run("world.select", {addresses = {}})
+  session:run "body.collisions"
+  t.ok(texts_of(view):find "collisions are off")
+  view:close()
+end)
