@@ -382,7 +382,7 @@ Names in a folder, sorted; hidden ones too. `files` are all that are not folders
 @like clench.load  confine
 @return {folders: string[], files: string[]}
 @effect files
-> clench.files.list("worlds").files[1]  --> barrett_mug.wld
+> clench.files.list("models").folders[1]  --> arms
 > #clench.files.list("models/hands/barrett").folders  --> 1
 > clench.files.list "README.md"  --> error: README.md: expected a folder, got a file
 > clench.files.list "no/such"  --> error: no such folder: no/such)"},
