@@ -20,13 +20,13 @@ end
 local groups = {"world", "settings", "file", "edit", "select", "body", "mount", "grasp", "eigengrasps", "grasps", "author", "quality", "forces", "planner", "online", "dynamics", "virtual", "sensors", "misc"}
 local events = {changed = true, diagnostic = true, progress = true, result = true}
 
-local function command_named(self, name)
+local function command_named(self, name, subject)
   local command = self.commands[name]
   if command then return command end
   local names = {}
   for known in pairs(self.commands) do names[#names + 1] = known end
   table.sort(names)
-  raise(("session:run: there is no command %s%s"):format(described(name), suggest(tostring(name), names)))
+  raise(("%s: there is no command %s%s"):format(subject, described(name), suggest(tostring(name), names)))
 end
 
 local function check_enabled(self, command)
@@ -73,8 +73,8 @@ end
 ---@param command {name: string, run: function, label?: string, shortcut?: string, menu?: string, section?: number, enabled?: function, parameters?: table[], reads?: boolean, script?: function, replace?: boolean, long?: boolean}
 --- name: "group.verb"; run(session, args); menu: "Grasp", or "Grasp/Posture" for a submenu; section: the viewer sorts the entries of a menu by it, with a line
 --- between two sections, and those without one come last; enabled(session): can it run now? If not, it may return a reason as its second value; parameters: a list of {name =,
---- type =, unit =, min =, max =, default =, optional =, choices =, text =, hint =, files =}, where hint() returns the text of its empty field, and files = {kinds =, endings =, catalog =, writes =, ending =} marks a path: a dialog lists the
---- files of these kinds (of clench.file_kind) or endings, and lists of clench.catalog; writes: the file is written, and a dialog asks before it replaces one; ending: appended to a name without one; reads: it changes nothing, and is neither logged nor undone; script(session, args): lines of
+--- type =, unit =, min =, max =, default =, optional =, choices =, text =, hint =, files =}, where hint() returns the text of its empty field, and files = {kinds =, endings =, catalog =, writes =, ending =, first =} marks a path: a dialog lists the
+--- files of these kinds (of clench.file_kind) or endings, and lists of clench.catalog; writes: the file is written, and a dialog asks before it replaces one; ending: appended to a name without one; first(path): the first file that is written, if it has another name; reads: it changes nothing, and is neither logged nor undone; script(session, args): lines of
 --- Lua with the same effect, logged instead of the resulting state, or a function of the result that returns them; replace: it may replace a command of the same name; long: it may take seconds, so a server
 --- runs it as a job (requires script or reads)
 function Session:command(command)
@@ -129,9 +129,9 @@ end
 --- Can a command run now?
 ---@param name string
 ---@return boolean can
----@return string? reason  why not; an error of the command's `enabled` is one, too
+---@return string? reason  why not, or the error of the command's `enabled`
 function Session:can_run(name)
-  local command = command_named(self, name)
+  local command = command_named(self, name, "session:can_run")
   if not command.enabled then return true end
   local ok, can, reason = pcall(command.enabled, self)
   if not ok then
@@ -147,7 +147,7 @@ end
 ---@param args? table  arguments by name
 ---@return any result  result of the command
 function Session:run(name, args)
-  local command = command_named(self, name)
+  local command = command_named(self, name, "session:run")
   args = arguments.read(command, args)
   check_enabled(self, command)
   if command.reads then
@@ -204,7 +204,7 @@ end
 --- Begins a gesture, a sequence of many small changes such as a drag: until `end_gesture` the script changes the world directly, and all changes form one step
 --- of undo. Any command that changes the session ends the gesture first.
 ---@param label string  label of the undo step
----@param lines? fun(): string  returns lines of Lua with the same effect; by default the resulting poses, DOFs, masses and materials are logged
+---@param lines? fun(session: table, before: table): string  returns lines of Lua with the same effect; by default the resulting poses, DOFs, masses and materials are logged
 ---@param over? fun()  called when it ends or is cancelled
 ---@return table gesture  equal to `session.gesture` while it is open
 function Session:begin_gesture(label, lines, over)
@@ -212,13 +212,25 @@ function Session:begin_gesture(label, lines, over)
   return gesture.begin(self, label, lines, over)
 end
 
+local function check_gesture(name, given)
+  if given ~= nil and (type(given) ~= "table" or not given.before) then
+    raise(("session:%s: expected the result of session:begin_gesture, got %s"):format(name, described(given)))
+  end
+end
+
 --- Ends the open gesture, if there is one.
 ---@param given? table  of begin_gesture: nothing happens if another gesture is open
-function Session:end_gesture(given) gesture.finish(self, given) end
+function Session:end_gesture(given)
+  check_gesture("end_gesture", given)
+  gesture.finish(self, given)
+end
 
 --- Ends the open gesture, if there is one, and reverts its changes.
 ---@param given? table  of begin_gesture: nothing happens if another gesture is open
-function Session:cancel_gesture(given) gesture.cancel(self, given) end
+function Session:cancel_gesture(given)
+  check_gesture("cancel_gesture", given)
+  gesture.cancel(self, given)
+end
 
 --- Adds a job to `session.jobs`; its progress and its end become events while `clench.loop` runs.
 ---@param job job

@@ -1068,7 +1068,7 @@ function robot_dynamics:has_closed() end
 ---@field size number[] # Width and height.
 ---@field items table[] # Widgets of the last frame. {label, kind, window, x, y, width, height, enabled}  rectangles [pixels]
 ---@field pressed table[] # Keys that went down in this frame. {key, ctrl, shift, alt}  key: code of GLFW
----@field mouse table # The mouse in this frame. {x, y, dx, dy, wheel, left, right, middle}  positions [pixels]; of a button {down, clicked, released, double, again}; again: clicked soon after the last click, also the third time
+---@field mouse table # The mouse in this frame. {x, y, dx, dy, wheel, left, right, middle}  positions [pixels]; of a button {down, clicked, released, double, again}; again: second or later press of a multiple click
 ---@field wants_mouse boolean # Is the mouse over a panel?
 ---@field wants_text boolean # Is text being typed into a widget?
 ---@field close_requested boolean # Has the user asked to close the window?

@@ -134,7 +134,7 @@ class Gui {
   bool button_clicked(int button) const;  ///< pressed in this frame
   bool button_released(int button) const;
   bool double_clicked(int button) const;
-  /// pressed in this frame, soon after the last press and at its place; also the third time
+  /// second or later press of a multiple click, in this frame
   bool clicked_again(int button) const;
   bool wants_mouse() const;  ///< is the mouse over a panel, or a widget of a panel held?
   bool wants_text() const;   ///< is text being typed into a widget?

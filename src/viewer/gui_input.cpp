@@ -86,7 +86,7 @@ class FrameInput {
   void time_press(const InputEvent& event) {
     double& last = s_.press_times[event.code];
     const bool is_timed = event.time >= 0;
-    const bool is_double = event.time - last < double_click_time;
+    const bool is_double = event.time >= last && event.time - last < double_click_time;
     io_.MouseDoubleClickTime = !is_timed ? double_click_time : is_double ? FLT_MAX : 0;
     last = is_timed ? event.time : -1e9;
   }

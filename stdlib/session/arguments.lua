@@ -17,7 +17,7 @@ local function is_ending(value) return type(value) == "string" and value:find "^
 local types = {number = true, integer = true, string = true, boolean = true, table = true, pose = true, vec3 = true, body = true, robot = true, any = true}
 local command_fields = {name = true, label = true, shortcut = true, menu = true, section = true, enabled = true, run = true, parameters = true, reads = true, script = true, replace = true, long = true}
 local known_fields = {name = true, type = true, unit = true, min = true, max = true, default = true, optional = true, text = true, choices = true, suggested = true, hint = true, in_dialog = true, files = true}
-local is_field_of_files = {kinds = is_list_of_texts, endings = is_list_of_texts, catalog = is_list_of_texts, ending = is_ending, writes = function(value) return type(value) == "boolean" end}
+local is_field_of_files = {kinds = is_list_of_texts, endings = is_list_of_texts, catalog = is_list_of_texts, ending = is_ending, first = function(value) return type(value) == "function" end, writes = function(value) return type(value) == "boolean" end}
 
 -- "ctrl+shift+s": modifiers in this order and a key, in lower case
 local function check_shortcut(command)
@@ -42,13 +42,14 @@ end
 local function check_files(name, parameter)
   local files = parameter.files
   if files == nil then return end
+  if parameter.type ~= "string" then raise(("session:command: %s: parameter %s: files: expected a parameter of type string, got %s"):format(name, parameter.name, described(parameter.type))) end
   if type(files) ~= "table" then raise(("session:command: %s: parameter %s: files: expected a table, got %s"):format(name, parameter.name, described(files))) end
   for field, value in pairs(files) do
     local fits = is_field_of_files[field]
     if not fits then raise(("session:command: %s: parameter %s: files: unknown key '%s'"):format(name, parameter.name, tostring(field))) end
     if not fits(value) then
       raise(("session:command: %s: parameter %s: files: %s: expected %s, got %s"):format(name, parameter.name, field,
-                                                                                   field == "writes" and "a boolean" or field == "ending" and "an ending such as '.wld'" or "a list of strings", described(value)))
+                                                                                   field == "writes" and "a boolean" or field == "first" and "a function" or field == "ending" and "an ending such as '.wld'" or "a list of strings", described(value)))
     end
   end
 end

@@ -7,9 +7,6 @@ local max_states = 1000  -- maximum number of states that can be undone; clones 
 
 function history.new() return {done = {}, undone = {}} end
 
--- the item, if the list still contains it; else nil
-local function alive(list, thing) return contains(list, thing) and thing or nil end
-
 -- The first robot with fingers; an arm has a single chain. Otherwise the first robot.
 local function first_hand(world)
   for _, robot in ipairs(world.robots) do
@@ -40,11 +37,14 @@ end
 function history.refresh(session)
   local world = session.world
   if not world then return end
-  session.hand = session.hand and alive(world.robots, session.hand) or first_hand(world)
-  session.object = session.object and alive(world.objects, session.object) or world.objects[1]
+  local robots, objects = world.robots, world.objects
+  if not contains(robots, session.hand) then session.hand = first_hand(world) end
+  if not contains(objects, session.object) then session.object = objects[1] end
+  if #session.selection == 0 then return end
+  local bodies = world.bodies
   local kept = {}
   for _, item in ipairs(session.selection) do
-    if alive(world.bodies, item) or alive(world.robots, item) then kept[#kept + 1] = item end
+    if contains(bodies, item) or contains(robots, item) then kept[#kept + 1] = item end
   end
   if #kept < #session.selection then session.selection = kept end
 end

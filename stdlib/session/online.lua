@@ -1,5 +1,6 @@
 --- The on-line planner of a session: periods of its search run as jobs, one after another, while the user or a device moves hand and object. The hand is
 --- shaped by the nearest grasp.
+local contains = require "clench.contains"
 local error_text = require "clench.error_text"
 local is_stopped = require "clench.is_stopped"
 local raise = require "clench.raise"
@@ -14,12 +15,7 @@ local max_speed = 1         -- of the real hand [rad/s]
 
 local function is_alive(session, state)
   local world = session.world
-  local function has(list, thing)
-    for _, other in ipairs(list) do
-      if other == thing then return true end
-    end
-  end
-  return world ~= nil and world == state.world and has(world.robots, state.hand) and has(world.objects, state.object)
+  return world ~= nil and world == state.world and contains(world.robots, state.hand) and contains(world.objects, state.object)
 end
 
 local function differ(a, b)

@@ -1,17 +1,19 @@
 --- The question for the path of a file to write: a field, files to choose from, and a question before one is replaced.
 local paths = require "clench.view.paths"
 local status = require "clench.view.status"
+local with_ending = require "clench.session.with_ending"
 local ask_path = {}
 
 --- Opens the question.
 ---@param title string
 ---@param text string  the suggested path
 ---@param files table|string  which files are listed, as of a command's parameter; or a command that has one
----@param done fun(path: string): string?  writes the file; may return the path that was written
+---@param done fun(path: string)  writes the file
 function ask_path.open(view, title, text, files, done)
   if type(files) == "string" then
-    local parameter = (view.session.commands[files].parameters or {})[1]
-    files = parameter and parameter.files or {writes = true}  -- a script may have replaced the command
+    local parameter = (view.session.commands[files].parameters or {})[1] or {}
+    local of_command = parameter.files or {}  -- a script may have replaced the command
+    files = {endings = of_command.endings, kinds = of_command.kinds, ending = of_command.ending, writes = true}
   end
   view.ask = {title = title, text = text, files = files, done = done, list = {}}
 end
@@ -20,17 +22,21 @@ local function save(view, ask)
   local answered = ask.question
   ask.error, ask.question = nil, not answered and paths.question(ask.files, ask.text) or nil
   if ask.question then return end
-  local ok, result = pcall(function()
+  local path = ask.files.ending and with_ending(ask.text, ask.files.ending) or ask.text
+  local ok, problem = pcall(function()
     if answered and answered.prepare then answered.prepare() end
-    return ask.done(ask.text)
+    ask.done(path)
   end)
-  if ok then
-    view.ask = nil
-    status.note(view, "Saved " .. (type(result) == "string" and result or ask.text))
-  else
-    ask.error = tostring(result)
+  if not ok then
+    ask.error = tostring(problem)
+    return
   end
+  view.ask = nil
+  status.note(view, "Saved " .. path)
 end
+
+--- Does a question wait for its answer?
+function ask_path.is_asking(view) return view.ask ~= nil or view.leaving ~= nil or #(view.left or {}) > 0 end
 
 --- Draws the question, if it is open.
 function ask_path.draw(view, ui)

@@ -1,7 +1,9 @@
 --- Keys and their effects: actions of the view and commands of the session, each with a shortcut that the user may change.
+local ask_path = require "clench.view.ask_path"
 local described = require "clench.described"
 local dialog = require "clench.view.dialog"
 local error_text = require "clench.error_text"
+local is_stopped = require "clench.is_stopped"
 local keys = require "clench.view.keys"
 local measure = require "clench.view.measure"
 local navigation = require "clench.view.navigation"
@@ -134,8 +136,12 @@ local function take_key(view, shortcut)
   if loser then view.status = ("%s has no key now"):format(loser) end
 end
 
--- does a question wait for its answer? Then keys run no commands behind it
-local function is_asking(view) return view.ask ~= nil or view.leaving ~= nil or #(view.left or {}) > 0 end
+local function run(view, action)
+  local ok, problem = pcall(action.run, view)
+  if ok then return end
+  if is_stopped(problem) then error(problem, 0) end
+  view:fail(problem)
+end
 
 --- Applies the keys pressed in this frame, unless text is being typed or a question is open: then Escape alone closes the palette, the question or the dialog.
 function bindings.update(view)
@@ -146,13 +152,13 @@ function bindings.update(view)
         close_text(view)
         dialog.cancel(view)
       end
-    elseif shortcut and is_asking(view) then
+    elseif shortcut and ask_path.is_asking(view) then
       if shortcut == "escape" then cancel(view) end
     elseif shortcut and view.binding then
       take_key(view, shortcut)
     elseif shortcut then
       local action = bindings.find(view, shortcut)
-      if action then action.run(view) end
+      if action then run(view, action) end
     end
   end
 end

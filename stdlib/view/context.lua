@@ -16,16 +16,16 @@ local function run(view, name, thing)
   dialog.open(view, view.session.commands[name])
 end
 
+local function label_of(view, name) return view.session.commands[name].label or name end
+
 local function entry(view, ui, name, thing, enabled)
-  local command = view.session.commands[name]
-  if ui:menu_item(command.label, {enabled = enabled}) then run(view, name, thing) end
+  if ui:menu_item(label_of(view, name), {enabled = enabled and (view.session:can_run(name))}) then run(view, name, thing) end
 end
 
 local function draw_robot(view, ui, robot)
   if ui:menu_item("Current Hand", {selected = view.session.hand == robot}) then view:run("grasp.select_hand", {hand = view:address(robot)}) end
   for _, name in ipairs(hand_commands) do
-    local command = view.session.commands[name]
-    if ui:menu_item(command.label) then view:run(name, {hand = view:address(robot)}) end
+    if ui:menu_item(label_of(view, name), {enabled = (view.session:can_run(name))}) then view:run(name, {hand = view:address(robot)}) end
   end
   ui:separator()
 end

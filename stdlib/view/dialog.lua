@@ -1,6 +1,8 @@
 --- Dialogs of commands, made from their parameters.
 local fields = require "clench.view.fields"
 local guarded = require "clench.view.guarded"
+local is_stopped = require "clench.is_stopped"
+local ask_path = require "clench.view.ask_path"
 local keys = require "clench.view.keys"
 local leave = require "clench.view.leave"
 local paths = require "clench.view.paths"
@@ -19,11 +21,11 @@ local function file_parameters(command)
   return list
 end
 
--- the question about a file that the command would replace; nil if there is none
+-- the question about a file that the command would replace; nil if there is none, or all are answered
 local function question_of(command, state)
   for _, parameter in ipairs(file_parameters(command)) do
     local question = paths.question(parameter.files, state[parameter.name])
-    if question then
+    if question and not state.answered[question.path] then
       question.parameter = parameter.name
       return question
     end
@@ -32,7 +34,7 @@ end
 
 -- is Enter pressed where no text is typed, and does only this dialog wait for it?
 local function enters(view, ui)
-  if ui.wants_text or view.palette or view.ask or view.leaving then return false end
+  if ui.wants_text or view.palette or view.binding or ask_path.is_asking(view) then return false end
   local count = 0
   for name in pairs(view.dialogs) do count = count + (is_planner(view.session.commands[name]) and 0 or 1) end
   for _, press in ipairs(ui.pressed) do
@@ -45,12 +47,16 @@ local function run(view, command, state)
   local args = {}
   for _, parameter in ipairs(command.parameters or {}) do args[parameter.name] = state[parameter.name] end
   local answered = state.question
-  state.error, state.question = nil, not answered and question_of(command, state) or nil
+  if answered then state.answered[answered.path] = answered end
+  state.error, state.question = nil, not is_planner(command) and question_of(command, state) or nil
   if state.question then return end
   local ok, result = pcall(function()
-    if answered and answered.prepare then answered.prepare() end
+    for _, question in pairs(state.answered) do
+      if question.prepare then question.prepare() end
+    end
     return view.session:run(command.name, args)
   end)
+  state.answered = {}
   if not ok then
     state.error = tostring(result)
     return
@@ -86,7 +92,10 @@ function dialog.fill(view, command)
   end
   if not asks then return view:run(command.name) end
   local ok, state = pcall(fields.new, view, command)
-  if not ok then return view:fail(state) end  -- an error of a function that suggests values
+  if not ok then
+    if is_stopped(state) then error(state, 0) end
+    return view:fail(state)  -- an error of a function that suggests values
+  end
   if is_planner(command) or command.name == "online.start" then state.hand, state.object = view.session.hand.name, view.session.object.name end
   -- in a window the user watches and stops a search: it is limited by time, not by steps
   if is_planner(command) and state.steps then state.steps, state.seconds = 10000000, 60 end
@@ -126,7 +135,7 @@ local function draw_files(view, ui, command, state, lines)
   if not shown then return end
   local name = shown.name
   state.lists[name] = state.lists[name] or {}
-  local path, accepted = paths.draw(view, ui, shown.files, state.lists[name], state.texts[name] or "", lines)
+  local path, accepted = paths.draw(view, ui, shown.files, state.lists[name], state.texts[name] or state[name] or "", lines)
   if path then state.texts[name], state[name] = path, path end
   state.entered = state.entered or accepted
 end

@@ -1,7 +1,7 @@
 --- Edits by widgets. The value of some becomes a command at the end of the edit, and until then is stored separately from the world; others change the world while they are dragged.
 local edit = {}
 
---- Begins the gesture of a widget that changes the world, unless it is open. A gesture of anything else, such as a playback, ends.
+--- Begins the gesture of a widget that changes the world, unless it is open. Any other open gesture, such as a playback, is ended.
 ---@param label string  label of the undo step
 ---@param lines? fun(session: table, before: table): string  as of session:begin_gesture
 function edit.begin(view, label, lines)
@@ -10,11 +10,17 @@ function edit.begin(view, label, lines)
   view.edit_gesture = {label = label, gesture = view.session:begin_gesture(label, lines)}
 end
 
+--- Ends a gesture, if it is still open. A change that cannot be logged, such as a removal by a script, is reverted, and the error is shown.
+function edit.end_gesture(view, gesture)
+  local ok, problem = pcall(view.session.end_gesture, view.session, gesture)
+  if not ok then view:fail(problem) end
+end
+
 --- Ends the gesture of a widget, if it is still open.
 function edit.finish(view)
   local own = view.edit_gesture
   view.edit_gesture = nil
-  if own then view.session:end_gesture(own.gesture) end
+  if own then edit.end_gesture(view, own.gesture) end
 end
 
 --- At the end of a frame: ends the gesture of a widget that has vanished while it was dragged.

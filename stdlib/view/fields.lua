@@ -101,7 +101,7 @@ local function draw_text(ui, state, parameter)
 end
 
 --- Draws the field of a parameter.
----@param state table  values by name; `texts`: typed texts; `hints`: of empty fields; `focus`: name of the field that takes the keys; `used`: of the one that had them last; `lists`: of files, by name; `entered`: Enter was pressed
+---@param state table  values by name; `texts`: typed texts; `hints`: of empty fields; `focus`: name of the field that takes the keys; `used`: of the one that had them last; `lists`: of files, by name; `answered`: questions about files, by path; `entered`: Enter was pressed
 local function draw_value(view, ui, state, parameter)
   local name = parameter.name
   local choices = choices_of(view, parameter)
@@ -127,7 +127,7 @@ end
 --- The values with which a dialog opens, and its first typed field, which takes the keys.
 ---@return table state
 function fields.new(view, command)
-  local state = {texts = {}, hints = {}, lists = {}}
+  local state = {texts = {}, hints = {}, lists = {}, answered = {}}
   for _, parameter in ipairs(command.parameters or {}) do
     local value = parameter.in_dialog
     if type(value) == "function" then value = value(view.session) end

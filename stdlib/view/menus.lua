@@ -10,7 +10,6 @@ local preferences = require "clench.view.preferences"
 local stereo = require "clench.view.stereo"
 local tools = require "clench.view.tools"
 local units = require "clench.view.units"
-local with_ending = require "clench.session.with_ending"
 local menus = {}
 
 local order = {"File", "Edit", "Element", "Grasp", "Dynamics", "Jobs"}
@@ -33,19 +32,11 @@ local function draw_recent(view, ui)
 end
 
 local function ask_view(view)
-  ask_path.open(view, "Save View", "view.png", "world.save_image", function(path)
-    path = with_ending(path, ".png")
-    view:screenshot {path = path, panels = false}
-    return path
-  end)
+  ask_path.open(view, "Save View", "view.png", "world.save_image", function(path) view:screenshot {path = path, panels = false} end)
 end
 
 local function ask_script(view)
-  ask_path.open(view, "Save Session as Script", "session.lua", {endings = {".lua"}, writes = true, ending = ".lua"}, function(path)
-    path = with_ending(path, ".lua")
-    view:save_script(path)
-    return path
-  end)
+  ask_path.open(view, "Save Session as Script", "session.lua", {endings = {".lua"}, writes = true, ending = ".lua"}, function(path) view:save_script(path) end)
 end
 
 local function draw_tools(view, ui)

@@ -99,7 +99,7 @@ function outline.mark(view, ui, robot, dof)
   if ui:hovered() or ui:active() then view.marked = {robot = robot, dof = dof} end
 end
 
---- At the begin of a frame: the mark of the last one is drawn, and the panels set a new one.
+--- At the start of a frame: the mark of the last one is drawn, and the panels set a new one.
 function outline.begin(view) view.drawn_mark, view.marked = view.marked, nil end
 
 --- At the end of a frame: requests another one if the mark has changed.

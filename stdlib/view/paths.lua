@@ -10,6 +10,7 @@ local paths = {}
 local rows = 8            -- of the list that are visible
 local max_choices = 300
 local period = 1          -- a folder is read again after this time [s]
+local longest = 0.02      -- time per frame for the kinds of files [s]
 local gray = {0.5, 0.5, 0.5}
 
 -- the models and worlds that come with Clench; without their folder, the reason is shown once, and other files remain
@@ -22,11 +23,12 @@ local function catalog_of(view)
   return view.catalog
 end
 
--- is a file of a kind or with an ending that the command reads or writes?
-local function is_listed(files, name, path, kinds)
+-- Is a file of a kind or with an ending that the command reads or writes? nil: its kind was not determined, as that takes long for many files.
+local function is_listed(files, name, path, kinds, deadline)
   if files.endings then return contains(files.endings, (name:match "%.[^.]*$" or ""):lower()) end
   if not files.kinds then return true end
   if kinds[path] == nil then
+    if clench.clock() > deadline then return nil end
     local ok, kind = pcall(clench.file_kind, path)
     kinds[path] = ok and kind
   end
@@ -41,24 +43,28 @@ local function above(folder)
   return up == "" and "./" or up
 end
 
--- The folder as `clench.files.list` takes it. Only in the current folder files are written, but models and worlds are also read where Clench has them.
+-- Folder name for `clench.files.list`; writing never resolves to the installed models.
 local function listed_name(files, folder)
   if folder == "" then return "./" end
   return files.writes and folder:sub(1, 1) ~= "/" and "./" .. folder or folder
 end
 
--- entries of a folder whose names contain a text; returns the problem of one that cannot be read
+-- Entries of a folder whose names contain a text. Returns the problem of one that cannot be read, and whether the kinds of some files are not known yet.
 local function add_entries(add, files, folder, part, kinds)
   local ok, found = pcall(clench.files.list, listed_name(files, folder))
   if not ok then return error_text(found) end
   if folder == "./" then folder = "" end
+  local deadline, is_incomplete = clench.clock() + longest, false
   local function matches(name) return (name:sub(1, 1) ~= "." or part:sub(1, 1) == ".") and name:lower():find(part, 1, true) end
   for _, name in ipairs(found.folders) do
     if matches(name) then add(folder .. name .. "/", name .. "/") end
   end
   for _, name in ipairs(found.files) do
-    if matches(name) and is_listed(files, name, folder .. name, kinds) and not add(folder .. name, name) then return end
+    local listed = matches(name) and is_listed(files, name, folder .. name, kinds, deadline)
+    is_incomplete = is_incomplete or listed == nil
+    if listed and not add(folder .. name, name) then break end
   end
+  return nil, is_incomplete
 end
 
 -- recent files, and those that come with Clench, whose paths contain a text
@@ -81,6 +87,7 @@ end
 ---@param kinds? table<string, string|false>  kinds of files that are known, and those that become known
 ---@return {path: string, label: string}[] choices
 ---@return string? problem  why the folder has none
+---@return boolean? is_incomplete  another call finds more
 function paths.choices(view, files, typed, kinds)
   kinds = kinds or {}
   local list, seen = {}, {}
@@ -94,14 +101,15 @@ function paths.choices(view, files, typed, kinds)
   if folder then
     local up = part == "" and above(folder)
     if up then add(up, "../") end
-    local problem = add_entries(add, files, folder, part:lower(), kinds)
+    local problem, is_incomplete = add_entries(add, files, folder, part:lower(), kinds)
     add_known(view, add, files, typed:lower())
-    return list, problem
+    return list, problem, is_incomplete
   end
   if typed == "" then add("./", "./  (this folder)") end
   add_known(view, add, files, typed:lower())
-  if typed ~= "" then add_entries(add, files, "", typed:lower(), kinds) end
-  return list
+  if typed == "" then return list end
+  local _, is_incomplete = add_entries(add, files, "", typed:lower(), kinds)
+  return list, nil, is_incomplete
 end
 
 -- the choices for the text of a list, computed again after a while
@@ -109,8 +117,10 @@ local function current_choices(view, files, state)
   local now = clench.clock()
   if state.listed ~= state.filter or now - state.at > period then
     state.kinds = state.kinds or {}
-    state.list, state.problem = paths.choices(view, files, state.filter, state.kinds)
-    state.listed, state.at = state.filter, now
+    local is_incomplete
+    state.list, state.problem, is_incomplete = paths.choices(view, files, state.filter, state.kinds)
+    state.listed, state.at = not is_incomplete and state.filter, now
+    view.needs_frame = view.needs_frame or is_incomplete or false
   end
   return state.list, state.problem
 end
@@ -126,14 +136,15 @@ function paths.draw(view, ui, files, state, typed, lines)
   if typed ~= state.chosen then state.filter, state.chosen = typed, nil end
   local list, problem = current_choices(view, files, state)
   local chosen, accepted = nil, false
-  -- the second press of a double click on a folder would hit an entry of that folder
+  -- a further press at the same place would hit an entry of the folder that the first one has opened
+  if ui.mouse.left.clicked then state.is_again = ui.mouse.left.again end
   local is_double = ui.mouse.left.double
   ui:child("files in " .. (state.filter:match "^.*/" or ""), {height = (rows - (lines or 0)) * (ui.line_height - 4), border = true}, function(ui)
     if problem then ui:text(printable(problem), {color = gray, wrap = true}) end
     if #list > max_choices then ui:text(("the first %d: type a part of the name for others"):format(max_choices), {color = gray}) end
     for i = 1, math.min(#list, max_choices) do
       local choice = list[i]
-      if ui:selectable(label(choice.label, "file" .. i), choice.path == typed) and not is_double then chosen = choice.path end
+      if ui:selectable(label(choice.label, "file" .. i), choice.path == typed) and not state.is_again then chosen = choice.path end
       accepted = accepted or is_double and ui:hovered() and choice.path == typed
     end
   end)
@@ -141,22 +152,25 @@ function paths.draw(view, ui, files, state, typed, lines)
   return chosen, accepted and typed:sub(-1) ~= "/"
 end
 
--- does a path exist, as far as this may be known?
+-- true if the path exists, nil if that cannot be found out, as under --confine
 local function exists(path)
   local ok, found = pcall(clench.files.exists, path)
-  return ok and found
+  if ok then return found end
 end
 
---- What the user must confirm before a path is written: a file that is replaced, or a folder that is created; nil if there is nothing.
+--- Question before a file is replaced or a folder is created; nil if neither happens.
 ---@return {path: string, text: string, button: string, prepare?: fun()}? question
 function paths.question(files, path)
-  if not files.writes or type(path) ~= "string" or path:find "/$" then return nil end
+  if not files.writes or type(path) ~= "string" or path == "" or path:find "/$" then return nil end
   local file = files.ending and with_ending(path, files.ending) or path
   local folder = file:match "^(.+)/"
-  if folder and not exists(folder) then
+  if folder and exists(folder) == false then
     return {path = path, text = folder .. " does not exist. Create it?", button = "Create", prepare = function() clench.files.make_folder(folder) end}
   end
-  return exists(file) and {path = path, text = file .. " exists. Replace it?", button = "Replace"} or nil
+  local first = files.first and files.first(file) or file
+  local found = exists(first)
+  if found == nil then return {path = path, text = first .. " may exist. Write it?", button = "Write"} end
+  return found and {path = path, text = first .. " exists. Replace it?", button = "Replace"} or nil
 end
 
 --- Draws a question, as long as the path is the same, and the button of a dialog.

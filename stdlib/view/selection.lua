@@ -1,13 +1,9 @@
 --- Changes of the selection by clicks in the picture and in the tree: a click selects; with Shift it adds to or removes from the selection.
+local contains = require "clench.contains"
 local selection = {}
 
 --- Is a body or robot selected?
-function selection.has(view, thing)
-  for _, other in ipairs(view.session.selection) do
-    if other == thing then return true end
-  end
-  return false
-end
+function selection.has(view, thing) return contains(view.session.selection, thing) end
 
 --- Replaces the selection.
 function selection.set(view, things)

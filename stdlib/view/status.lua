@@ -37,7 +37,7 @@ function status.log(view, diagnostic)
   local file = type(diagnostic.file) == "string" and diagnostic.file:match "[^/]+$"
   if file then text = ("%s:%s %s"):format(file, diagnostic.line and ("%d:"):format(diagnostic.line) or "", text) end
   view:print(text, diagnostic.severity)
-  view.status = text:match "^[^\n]*"
+  view.status, view.old_status = text:match "^[^\n]*", nil
 end
 
 local function names_of(pair) return ("%s and %s"):format(pair[1].name, pair[2].name) end

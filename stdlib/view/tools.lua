@@ -4,6 +4,7 @@ local boxes = require "clench.view.boxes"
 local camera = require "clench.view.camera"
 local context = require "clench.view.context"
 local drags = require "clench.view.drags"
+local edit = require "clench.view.edit"
 local error_text = require "clench.error_text"
 local frames = require "clench.view.frames"
 local handles = require "clench.view.handles"
@@ -121,7 +122,7 @@ local function move_drag(view, press, mouse)
 end
 
 local function end_press(view, press, mouse)
-  if press.kind == "drag" then view.session:end_gesture(press.drag.gesture) end
+  if press.kind == "drag" then edit.end_gesture(view, press.drag.gesture) end
   if press.opens_menu and view.panels_visible then context.open(view, mouse.x, mouse.y) end
   if press.kind == "seek" then navigation.seek_pixel(view, mouse.x, mouse.y) end
   if press.kind == "measure" then measure.click(view, mouse.x, mouse.y) end

@@ -38,7 +38,6 @@ function Viewer:__tostring() return ("view of %s"):format(tostring(self.session.
 
 --- Records that the world or the panels have changed, so that the next frame is drawn anew.
 function Viewer:changed()
-  history.refresh(self.session)  -- a script may have removed bodies
   self.stamp = self.stamp + 1
   self.needs_frame = true
 end
@@ -108,7 +107,7 @@ local function follow_world(self)
   if self.world_hash ~= hash then self.world_hash, self.stamp = hash, self.stamp + 1 end
   history.refresh(self.session)
   if not world or self.shown_world == world then return end
-  self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author, self.curves, self.dialogs = world, nil, {}, nil, nil, nil, nil, {}
+  self.shown_world, self.home_camera, self.measured, self.compared, self.gallery, self.author, self.curves, self.dialogs, self.ask = world, nil, {}, nil, nil, nil, nil, {}, nil
   self:home()
 end
 
@@ -177,9 +176,9 @@ function Viewer:frame()
       tools.draw(self, ui)
       layout.draw(self, ui)
       outline.finish(self)
-      edit.check_release(self)
       splitters.draw(self, ui)  -- behind the panels
     end
+    edit.check_release(self)
     palette.draw(self, ui)
     bindings.update(self)
   end)

@@ -41,7 +41,7 @@ TEST_CASE("a folder is created with those above it, or its reason is reported") 
       (file.string() + "/in: the folder cannot be created: Not a directory").c_str(), Error);
 }
 
-TEST_CASE("what is not a folder, or cannot be read, is reported as such") {
+TEST_CASE("a path that is no readable folder is rejected with the reason") {
   const TemporaryFolder folder;
   const std::string place = folder.path().string();
   folder.write("file", "");

@@ -1,4 +1,4 @@
--- clench.files.list; readers and writers of single formats are tested with their formats.
+-- Folders and paths: clench.files.list, exists and make_folder; readers and writers of single formats are tested with their formats.
 local test, clench = require "test", require "clench"
 
 test("a folder is listed, and names of models and worlds are found as those of files are", function(t)
@@ -21,7 +21,18 @@ test("a folder is listed, and names of models and worlds are found as those of f
   t.ok(said:find("no such folder", 1, true), said)
 end)
 
-test("what is not a folder is named", function(t)
+test("folders are created with those above them, and paths are found", function(t)
+  local folder = test.path()
+  t.equal(clench.files.exists(folder), false)
+  for _ = 1, 2 do clench.files.make_folder(folder .. "/a/b") end
+  t.equal(clench.files.list(folder), {folders = {"a"}, files = {}})
+  clench.files.save_text(folder .. "/a/c", "")
+  os.execute(("ln -s none '%s/a/dangling'"):format(folder))
+  t.equal({clench.files.exists(folder .. "/a/c"), clench.files.exists(folder .. "/a/b"), clench.files.exists(folder .. "/a/dangling")}, {true, true, false})
+  t.fails(function() clench.files.make_folder(folder .. "/a/c") end, "/a/c: the folder cannot be created: Not a directory")
+end)
+
+test("a path that is not a folder is rejected by name", function(t)
   t.fails(function() clench.files.list "README.md" end, "README.md: expected a folder, got a file")
   t.fails(function() clench.files.list "no/such" end, "no such folder: no/such")
   t.fails(function() clench.files.list "models\0x" end, "expected a string without zero bytes")

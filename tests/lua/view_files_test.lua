@@ -173,6 +173,74 @@ test("a file is replaced only after a question, in dialogs of commands and in th
   view:close()
 end)
 
+test("each of two files that exist is asked about, and the first picture of a film", function(t)
+  local session, view = open()
+  local base = test.path()
+  for _, name in ipairs {"a", "b", "f0001.png"} do clench.files.save_text(base .. name, "old") end
+  local ran = 0
+  session:command {name = "mine.write", label = "Write…", menu = "Mine", reads = true, run = function() ran = ran + 1 end,
+                   parameters = {{name = "one", type = "string", files = {writes = true}}, {name = "two", type = "string", files = {writes = true}}}}
+  view:menu "Mine/Write…"
+  view:type(base .. "a")
+  view:key "tab"
+  view:type(base .. "b")
+  view:click_label "OK"
+  for _, name in ipairs {"a", "b"} do
+    t.ok(texts_of(view):find(base .. name .. " exists. Replace it?", 1, true), name)
+    t.equal(ran, 0)
+    pass(view)
+    view:click_label "Replace"
+  end
+  t.equal(ran, 1)
+  session:run("dynamics.run", {seconds = 0.1})
+  view:menu "Dynamics/Save Film…"
+  view:type(base .. "f.png")
+  view:click_label "OK"
+  t.ok(texts_of(view):find(base .. "f0001.png exists. Replace it?", 1, true))
+  view:close()
+end)
+
+test("clicks on a folder that follow each other open one folder", function(t)
+  local _, view = open()
+  local folder = test.path()
+  clench.files.make_folder(folder .. "/a/b/c")
+  view:menu "File/Import Object…"
+  view:type(folder .. "/")
+  local row = item(view, "^a/$")
+  view.ui:input {kind = "move", x = row.x + 5, y = row.y + 5}
+  for _ = 1, 3 do
+    for _, down in ipairs {true, false} do view.ui:input {kind = "button", code = 0, down = down} end
+  end
+  repeat view:frame() until not view.ui:poll()
+  t.equal(view.dialogs["world.import_object"].path, folder .. "/a/")
+  view:close()
+end)
+
+test("wrong `files` of a parameter are named", function(t)
+  local session = clench.session()
+  local function try(files, kind)
+    session:command {name = "mine.bad", run = print, parameters = {{name = "path", type = kind or "string", files = files}}}
+  end
+  t.fails(function() try(5) end, "parameter path: files: expected a table, got 5")
+  t.fails(function() try {kind = "body"} end, "parameter path: files: unknown key 'kind'")
+  t.fails(function() try {kinds = "body"} end, "files: kinds: expected a list of strings, got 'body'")
+  t.fails(function() try {endings = {5}} end, "files: endings: expected a list of strings")
+  t.fails(function() try {ending = "wld"} end, "files: ending: expected an ending such as '.wld', got 'wld'")
+  t.fails(function() try {writes = 1} end, "files: writes: expected a boolean, got 1")
+  t.fails(function() try {first = 1} end, "files: first: expected a function, got 1")
+  t.fails(function() try({}, "number") end, "files: expected a parameter of type string, got 'number'")
+end)
+
+test("a file that may not be looked at, as under --confine, is written after a question", function(t)
+  local script = test.path ".lua"
+  clench.files.save_text(script, [[
+    local paths = require "clench.view.paths"
+    print(paths.question({writes = true}, "/tmp/x.txt").text)
+  ]])
+  local pipe <close> = io.popen(("\"$(readlink /proc/$PPID/exe)\" -q run --confine models '%s' 2>&1"):format(script))
+  t.equal(pipe:read "a", "/tmp/x.txt may exist. Write it?\n")
+end)
+
 test("a folder of thousands of files, and of names that are not text, can be listed", function(t)
   local session, view = open()
   local folder = test.path()

@@ -1,4 +1,4 @@
--- A view goes on whatever scripts, commands and keys do meanwhile, and its history and script stay true.
+-- A view survives errors of scripts, commands and keys, and its history and script remain correct.
 local test, clench = require "test", require "clench"
 local views = dofile "tests/lua/view_session.lua"
 local open, item, texts_of = views.open, views.item, views.texts_of
@@ -25,7 +25,7 @@ end
 
 local function panel_errors(view) return texts_of(view):match "[^\n]*%.lua:%d+[^\n]*" end
 
-test("what a script removes is no longer the current hand, object or selection", function(t)
+test("removed bodies are no longer the current hand, object or selection", function(t)
   local removals = {
     function(session) session.world:remove(session.object) end,
     function(session) session.world:remove(session.hand) end,
@@ -196,6 +196,68 @@ test("the gesture of a slider that vanishes while it is dragged ends with the re
   button(view, false)
   t.equal(session.gesture, nil)
   check_script(t, session)
+  view:close()
+end)
+
+test("a body that a script removes during a drag returns at the release, with the reason", function(t)
+  local session, view = open("barrett_mug", {1100, 1900})
+  view:select "mug"
+  local slider = item(view, "^x %[m%]")
+  move(view, slider.x + 20, slider.y + 8)
+  button(view, true)
+  move(view, slider.x + 30, slider.y + 8)
+  t.ok(session.gesture)
+  session.world:remove(session.object)
+  button(view, false)
+  t.equal(session.gesture, nil)
+  t.equal(#session.world.objects, 1)
+  t.ok(view.status:find "adds or removes bodies", view.status)
+  view:close()
+end)
+
+test("a slider that is hidden by F9 ends its gesture at the release", function(t)
+  local session, view = open("barrett_mug", {1100, 1900})
+  view:select "barrett"
+  press_slider(view, "^dof2")
+  view:key "f9"
+  button(view, false)
+  t.equal(session.gesture, nil)
+  view:key "f9"
+  check_script(t, session)
+  view:close()
+end)
+
+test("end_gesture and cancel_gesture of one gesture leave another one open, and take nothing else", function(t)
+  local session = clench.session(clench.load("worlds/barrett_mug.wld", {root = "."}))
+  local first = session:begin_gesture "First"
+  local second = session:begin_gesture "Second"
+  session:end_gesture(first)
+  session:cancel_gesture(first)
+  t.equal(session.gesture, second)
+  session:cancel_gesture(second)
+  t.equal(session.gesture, nil)
+  t.fails(function() session:end_gesture(3) end, "session:end_gesture: expected the result of session:begin_gesture, got 3")
+  t.fails(function() session:cancel_gesture {} end, "session:cancel_gesture: expected the result of session:begin_gesture, got an empty table")
+end)
+
+test("a message stays until the next action, which may have the same one", function(t)
+  local session, view = open()
+  session:command {name = "mine.notes", run = function() clench.log.info "seen" end, script = function() return "" end}
+  for _ = 1, 3 do
+    view:run "mine.notes"
+    t.equal(view.status, "seen")
+  end
+  view:run "grasp.open"
+  t.equal(view.status, "Ready")
+  view:close()
+end)
+
+test("the file of a note is named in the status bar", function(t)
+  local _, view = open()
+  local file = test.path ".wrl"
+  clench.files.save_text(file, "#VRML V2.0 utf8\nShape { geometry Box { size 1 1 1 } }\nSound {}\n")
+  view:run("world.import_object", {path = file})
+  t.ok(view.status:find("^" .. file:match "[^/]+$" .. ":%d*:? "), view.status)
   view:close()
 end)
 

@@ -18,6 +18,9 @@ local function has_recording(session)
   return recording ~= nil and recording.world == session.world and #recording.times > 0, "no run was recorded"
 end
 
+-- of a sequence of pictures
+local function first_file(path) return (path:gsub("%.png$", "0001.png")) end
+
 return {
   {name = "dynamics.run", label = "Run…", menu = "Dynamics", section = 1, enabled = conditions.world, long = true,
    parameters = {{name = "seconds", type = "number", min = 0, max = 1e6, unit = "s", default = 1, text = "simulated time"}},
@@ -46,7 +49,7 @@ return {
   {name = "dynamics.pop", label = "Pop State", menu = "Dynamics", section = 3, enabled = function(session) return #session.stack > 0, "no state was pushed" end,
    run = function(session) session.world:restore(table.remove(session.stack)) end, script = function() return "world:pop()" end},
   {name = "dynamics.save_film", label = "Save Film…", menu = "Dynamics", section = 4, enabled = has_recording, reads = true,
-   parameters = {{name = "path", type = "string", files = {endings = {".html", ".gif", ".mp4", ".png"}, writes = true}, text = "a file: .html, a page that plays in 3-D; .gif; .mp4; or .png, one picture per state"},
+   parameters = {{name = "path", type = "string", files = {endings = {".html", ".gif", ".mp4", ".png"}, writes = true, first = first_file}, text = "a file: .html, a page that plays in 3-D; .gif; .mp4; or .png, one picture per state"},
                  {name = "options", type = "table", optional = true, text = "options of recording:save"}},
    run = function(session, args)
      session.recording:save(args.path, args.options)

@@ -66,7 +66,7 @@ local function import(kind, label, files)
     run = function(session, args)
       local added = session.world[method](session.world, args.path, reading_of(args, args.pose and pose_of(args.pose)))
       if is_free(args) then place_free(session, added) end
-      local is_hand = kind == "robot" and (#added.chains > 1 or not session.hand or #session.hand.chains == 1)  -- an arm does not replace a hand
+      local is_hand = kind == "robot" and (#added.chains > 1 or not session.hand or #session.hand.chains <= 1)  -- an arm does not replace a hand
       if is_hand then session.hand = added elseif kind == "object" then session.object = added end
       return added
     end,

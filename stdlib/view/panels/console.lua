@@ -1,6 +1,7 @@
 --- The console: an input line of Lua, and the output of it and of commands; Up and Down recall lines, Tab completes names. `session`, `world`, `hand`,
 --- `object` and `view` are defined.
 local completion = require "clench.view.completion"
+local history = require "clench.session.history"
 
 -- what a line sees before the globals of Lua
 local function names_of(view)
@@ -40,6 +41,7 @@ local function run(view, line)
   if not f then f, message = load(line, "=console", "t", env) end
   if not f then return view:print(message, "error") end
   local results = captured(view, f)
+  history.refresh(view.session)  -- the line may have removed bodies
   if not results[1] then return view:print(tostring(results[2]), "error") end
   local texts = {}
   for i = 2, results.n do texts[#texts + 1] = tostring(results[i]) end

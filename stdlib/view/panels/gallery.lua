@@ -32,7 +32,7 @@ local function new_picture(view, grasp)
   return ok and picture or {problem = tostring(problem)}
 end
 
--- identifies what is around the hand: names and poses of objects and obstacles
+-- key of the scene: names and poses of objects and obstacles
 local function scene_of(world)
   local parts = {}
   for _, bodies in ipairs {world.objects, world.obstacles} do
@@ -49,12 +49,13 @@ end
 local function pictures_of(view, source)
   view.gallery = view.gallery or {by_key = {}}
   local gallery, list, has_new = view.gallery, {}, false
-  if not view.session.gesture then gallery.scene = scene_of(view.session.world) end
+  local is_moving = view.session.gesture ~= nil
+  if not is_moving then gallery.scene = scene_of(view.session.world) end
   for i = 1, math.min(#source.grasps, most) do
     local key = key_of(source.grasps[i])
     local kept = gallery.by_key[key]
-    if not has_new and (not kept or kept.scene ~= gallery.scene) then
-      kept, has_new = {picture = new_picture(view, source.grasps[i]), scene = gallery.scene}, true
+    if not has_new and (not kept or not is_moving and kept.scene ~= gallery.scene) then
+      kept, has_new = {picture = new_picture(view, source.grasps[i]), scene = not is_moving and gallery.scene}, true
       gallery.by_key[key], view.needs_frame = kept, true
     end
     list[i] = kept and kept.picture or false

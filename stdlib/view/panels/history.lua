@@ -1,5 +1,6 @@
 --- The history of the session: a click undoes or redoes all commands up to a step.
--- undoes the steps after one; a playback becomes a step before, thus may follow it
+
+-- undoes all later steps; an open playback is ended first and becomes one of them
 local function return_to(session, step)
   session:end_gesture()
   local done = session.history.done

@@ -1,4 +1,4 @@
---- The selection: pose, DOFs and body properties, in the units of the user. A number is dragged to change it, or typed after a double click.
+--- The selection: pose, DOFs and body properties, in the units of the user. A number is dragged to change it, or typed after Ctrl and a click.
 local dof_labels = require "clench.view.dof_labels"
 local edit = require "clench.view.edit"
 local facts = require "clench.view.world_facts"

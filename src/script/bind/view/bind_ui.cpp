@@ -268,7 +268,7 @@ Keys that went down in this frame.
 > #ui.pressed  --> 0)"},
     {"mouse", guarded<get_mouse>, R"(
 The mouse in this frame.
-@type table  {x, y, dx, dy, wheel, left, right, middle}  positions [pixels]; of a button {down, clicked, released, double, again}; again: clicked soon after the last click, also the third time
+@type table  {x, y, dx, dy, wheel, left, right, middle}  positions [pixels]; of a button {down, clicked, released, double, again}; again: second or later press of a multiple click
 > ui.mouse.left.down  --> false)"},
     {"wants_mouse", guarded<get_wants_mouse>, R"(
 Is the mouse over a panel?
