@@ -1,6 +1,7 @@
 #include "clench/viewer/gui.h"
 
 #include <backends/imgui_impl_opengl3.h>
+#include <imgui_internal.h>
 
 #include <epoxy/gl.h>
 
@@ -30,6 +31,19 @@ void claim_thread() {
 void release_thread() {
   const std::lock_guard lock(owner_mutex);
   --owned;
+}
+
+// Closes modal windows that were not described in this frame. Dear ImGui leaves them open if another
+// window has the focus, and a window that appears in the next frame fails its assertion that a
+// modal window is visible.
+void close_abandoned_modals() {
+  const ImVector<ImGuiPopupData>& popups = ImGui::GetCurrentContext()->OpenPopupStack;
+  for (int i = 0; i < popups.Size; ++i) {
+    const ImGuiWindow* window = popups[i].Window;
+    if (!window || !(window->Flags & ImGuiWindowFlags_Modal) || window->Active) continue;
+    ImGui::ClosePopupToLevel(i, false);
+    return;
+  }
 }
 
 constexpr int max_textures_idle = 120;  // frames until an unused image is released
@@ -114,6 +128,7 @@ void Gui::begin(double dt) {
 void Gui::end() {
   State& s = *state_;
   s.use();
+  close_abandoned_modals();
   ImGui::Render();
   std::exception_ptr problem;
   try {

@@ -321,3 +321,36 @@ test("input does not wait forever for a field that asks for the focus in each fr
   t.equal({seen, ui:poll()}, {1, false})
   ui:close()
 end)
+
+test("windows, questions, tooltips and the focus come and go in any order", function(t)
+  for seed = 1, 12 do
+    local random, shown = clench.random(seed), {}
+    local function chance(p) return random:uniform() < p end
+    local ui = clench.ui {size = {400, 300}}
+    local function draw_field(ui)
+      ui:text_input("t", "x", {focus = chance(0.2)})
+      ui:tooltip "a field"
+    end
+    for _ = 1, 400 do
+      for _, name in ipairs {"D", "E", "M", "N"} do
+        if chance(0.15) then shown[name] = not shown[name] end
+      end
+      if chance(0.5) then ui:input {kind = "move", x = random:uniform(0, 400), y = random:uniform(0, 300)} end
+      if chance(0.4) then ui:input {kind = "button", code = 0, down = chance(0.5)} end
+      ui:frame(0.02, function(ui)
+        ui:window("A", {x = 0, y = 0, width = 400, height = 300}, function(ui)
+          ui:button("b", {width = 380, height = 200})
+          ui:tooltip "in A"
+        end)
+        for _, name in ipairs {"D", "E"} do
+          if shown[name] then ui:window(name, {x = 40, y = 40, width = 200, height = 150, movable = true}, draw_field) end
+        end
+        for _, name in ipairs {"M", "N"} do
+          if shown[name] then ui:window(name, {width = 0, modal = true}, draw_field) end
+        end
+      end)
+    end
+    t.ok(#ui.items > 0)
+    ui:close()
+  end
+end)
