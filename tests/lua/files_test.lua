@@ -15,7 +15,7 @@ test("a folder is listed, and names of models and worlds are found as those of f
 
   local script = test.path ".lua"
   clench.files.save_text(script, 'print(#clench.files.list("models/hands").folders, pcall(clench.files.list, "models/none"))')
-  local pipe <close> = io.popen(("cd /tmp && CLENCH_MODELS='%s' \"$(readlink /proc/$PPID/exe)\" -q run '%s' 2>&1"):format(os.getenv "PWD", script))
+  local pipe <close> = io.popen(("home=$(pwd -P); cd /tmp && CLENCH_MODELS=$home \"$(readlink /proc/$PPID/exe)\" -q run '%s' 2>&1"):format(script))
   local said = pipe:read "a"
   t.ok(said:find("^" .. #clench.files.list("models/hands").folders .. "\tfalse\t"), said)
   t.ok(said:find("no such folder", 1, true), said)
