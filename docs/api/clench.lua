@@ -1705,10 +1705,11 @@ function clench.files.read_text(path, options) end
 ---@return {folders: string[], files: string[]}
 function clench.files.list(folder, options) end
 
----Is there a file, folder or device of that path? A link without a target counts as none. Only the current folder is searched.
+---Is there a file, folder or device at that path? False for a link without a target. Relative paths start at the current folder only.
 ---@param path string # of a file or folder
+---@param options? {confine?: string} # how the path is read
 ---@return boolean
-function clench.files.exists(path) end
+function clench.files.exists(path, options) end
 
 ---Creates a folder and those above it, unless they exist.
 ---@param path string # folder to create

@@ -12,8 +12,6 @@
 
 #include "clench/app/interrupt.h"
 #include "clench/app/line.h"
-#include "clench/base/error.h"
-#include "clench/base/folder.h"
 #include "clench/base/printable.h"
 #include "clench/script/host/state.h"
 #include "clench/script/lua/home.h"
@@ -51,18 +49,12 @@ static int run_piped(State& state) {
 
 static void add_names(const fs::path& folder, const std::string& typed,
                       std::vector<std::string>& names) {
-  FolderContents contents;
-  try {
-    contents = list_folder(folder);
-  } catch (const Error&) {
-    return;  // nothing to complete
-  }
-  const auto add = [&](const std::string& name, const char* end) {
+  std::error_code none;
+  for (fs::directory_iterator at(folder, none), end; !none && at != end; at.increment(none)) {
+    const std::string name = at->path().filename().string();
     if (name.starts_with(typed) && (name[0] != '.' || typed.starts_with('.')))
-      names.push_back(name + end);
-  };
-  for (const auto& name : contents.folders) add(name, "/");
-  for (const auto& name : contents.files) add(name, "");
+      names.push_back(at->is_directory(none) ? name + "/" : name);
+  }
 }
 
 // the beginning of a path's last name, then its completions: in this state, otherwise in the

@@ -3,6 +3,7 @@
 #include <GLFW/glfw3.h>
 
 #include <cfloat>
+#include <utility>
 
 #include "clench/viewer/gui_state.h"
 
@@ -84,11 +85,11 @@ class FrameInput {
   }
   // Dear ImGui compares the times of frames, which may be much later than those of the presses
   void time_press(const InputEvent& event) {
-    double& last = s_.press_times[event.code];
-    const bool is_timed = event.time >= 0;
-    const bool is_double = event.time >= last && event.time - last < double_click_time;
-    io_.MouseDoubleClickTime = !is_timed ? double_click_time : is_double ? FLT_MAX : 0;
-    last = is_timed ? event.time : -1e9;
+    const std::optional<double> last = std::exchange(s_.press_times[event.code], event.time);
+    io_.MouseDoubleClickTime = double_click_time;
+    if (!event.time) return;
+    const double passed = last ? *event.time - *last : -1;
+    io_.MouseDoubleClickTime = passed >= 0 && passed < double_click_time ? FLT_MAX : 0;
   }
   bool wheel(const InputEvent& event) {
     if (pressed_) return false;

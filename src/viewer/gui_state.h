@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "clench/render/gl/gl_objects.h"
@@ -26,8 +27,7 @@ struct Gui::State {
   int waited = 0;          // frames in which no waiting input was applied
   int acted = -100;        // last frame that applied a click, or a key that may do more than type
   int focus_asked = -100;  // last frame in which a widget asked for the focus
-  std::array<double, 5> press_times{-1e9, -1e9, -1e9, -1e9,
-                                    -1e9};  // of the last press of each button [s]
+  std::array<std::optional<double>, 5> press_times;  // of the last press of each button [s]
   std::vector<KeyPress> pressed;
   std::vector<std::string> dropped;
   bool close_requested = false;

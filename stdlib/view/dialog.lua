@@ -1,8 +1,8 @@
 --- Dialogs of commands, made from their parameters.
+local ask_path = require "clench.view.ask_path"
 local fields = require "clench.view.fields"
 local guarded = require "clench.view.guarded"
 local is_stopped = require "clench.is_stopped"
-local ask_path = require "clench.view.ask_path"
 local keys = require "clench.view.keys"
 local leave = require "clench.view.leave"
 local paths = require "clench.view.paths"
@@ -21,7 +21,7 @@ local function file_parameters(command)
   return list
 end
 
--- the question about a file that the command would replace; nil if there is none, or all are answered
+-- the next question about a file that the command writes; nil once all are answered
 local function question_of(command, state)
   for _, parameter in ipairs(file_parameters(command)) do
     local question = paths.question(parameter.files, state[parameter.name])
@@ -77,13 +77,13 @@ function dialog.open(view, command)
   dialog.fill(view, command)
 end
 
--- a world without a file is saved as one
-local function replaced_command(view, command)
+-- a world without a file is saved under a new name
+local function with_save_as(view, command)
   return command.name == "world.save" and not view.session.path and view.session.commands["world.save_as"] or command
 end
 
 function dialog.fill(view, command)
-  command = replaced_command(view, command)
+  command = with_save_as(view, command)
   local can, reason = view.session:can_run(command.name)
   if not can then return view:fail(("%s cannot run now%s"):format((command.label or command.name):gsub("…", ""), reason and ": " .. reason or "")) end
   local asks = (command.label or ""):find "…"

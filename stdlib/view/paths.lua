@@ -73,7 +73,7 @@ local function add_known(view, add, files, part)
   local function try(path)
     if path:lower():find(part, 1, true) then add(path, path) end
   end
-  if contains(files.kinds or {}, "world") then
+  if contains(files.catalog or {}, "worlds") then
     for _, path in ipairs(view.recent) do try(path) end
   end
   for _, kind in ipairs(files.catalog or {}) do
@@ -86,7 +86,7 @@ end
 ---@param files table  `files` of the command's parameter
 ---@param kinds? table<string, string|false>  kinds of files that are known, and those that become known
 ---@return {path: string, label: string}[] choices
----@return string? problem  why the folder has none
+---@return string? problem  why the folder cannot be listed
 ---@return boolean? is_incomplete  another call finds more
 function paths.choices(view, files, typed, kinds)
   kinds = kinds or {}

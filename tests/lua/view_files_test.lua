@@ -76,11 +76,12 @@ test("a path that names a folder lists its folders and the files that the comman
   local up = folder:match "^(.*/)[^/]+/$"
   t.equal(choices(view, "world.import_object", folder), {up, folder .. "sub/", folder .. "one.iv"})
   t.equal(choices(view, "world.import_robot", folder), {up, folder .. "sub/", folder .. "parallel_jaw.cfg"})
-  t.equal(choices(view, "world.open", folder), {up, folder .. "sub/", folder .. "barrett_mug.wld"})
+  t.equal(choices(view, "world.open", folder), {up, folder .. "sub/", folder .. "barrett_mug.wld", folder .. "one.iv", folder .. "parallel_jaw.cfg"})
   t.equal(choices(view, "file.check", folder), {up, folder .. "sub/", folder .. "barrett_mug.wld", folder .. "note.txt", folder .. "one.iv", folder .. "parallel_jaw.cfg"})
   t.equal(choices(view, "world.import_object", folder .. "O"), {folder .. "one.iv"})
   t.equal(choices(view, "world.import_object", folder .. ".hid"), {folder .. ".hidden/"})
-  t.equal(choices(view, "world.save_as", folder .. "new"), {up, folder .. "sub/", folder .. "barrett_mug.wld"})
+  clench.files.save_text(folder .. "scene.mjcf", "")
+  t.equal(choices(view, "world.save_as", folder .. "new"), {up, folder .. "sub/", folder .. "barrett_mug.wld", folder .. "scene.mjcf"})
   local list, problem = paths.choices(view, session.commands["world.open"].parameters[1].files, "no/such/")
   t.equal(#list, 1)
   t.ok(problem:find("no such folder: no/such/", 1, true), problem)
@@ -111,12 +112,7 @@ test("a file is chosen by going down folders, and a double click on it is OK", f
   pass(view)
   t.equal(view.dialogs["world.import_obstacle"].path, "models/obstacles/table.iv")
   t.ok(item(view, "^table%.iv$"), "the list stays")
-  local at = item(view, "^table%.iv$")
-  view.ui:input {kind = "move", x = at.x + 5, y = at.y + 5}
-  for _ = 1, 2 do
-    for _, down in ipairs {true, false} do view.ui:input {kind = "button", code = 0, down = down} end
-  end
-  repeat view:frame() until not view.ui:poll()
+  views.clicks(view, item(view, "^table%.iv$"), 2)
   view:frame()
   t.equal(view.dialogs["world.import_obstacle"], nil)
   t.equal(session.world.obstacles[1].name, "table")
@@ -152,8 +148,7 @@ test("a file is replaced only after a question, in dialogs of commands and in th
   view:key "backspace"
   view:click_label "OK"
   t.equal(clench.files.read_text(file), "old")
-  for _ = 1, 2 do view.ui:input {kind = "button", code = 0, down = true} view.ui:input {kind = "button", code = 0, down = false} end
-  repeat view:frame() until not view.ui:poll()
+  views.clicks(view, item(view, "^Replace$"), 2)
   t.equal(clench.files.read_text(file), "old", "a double click on OK")
   pass(view)
   view:click_label "Replace"
@@ -206,12 +201,7 @@ test("clicks on a folder that follow each other open one folder", function(t)
   clench.files.make_folder(folder .. "/a/b/c")
   view:menu "File/Import Object…"
   view:type(folder .. "/")
-  local row = item(view, "^a/$")
-  view.ui:input {kind = "move", x = row.x + 5, y = row.y + 5}
-  for _ = 1, 3 do
-    for _, down in ipairs {true, false} do view.ui:input {kind = "button", code = 0, down = down} end
-  end
-  repeat view:frame() until not view.ui:poll()
+  views.clicks(view, item(view, "^a/$"), 3)
   t.equal(view.dialogs["world.import_object"].path, folder .. "/a/")
   view:close()
 end)

@@ -1,21 +1,7 @@
 -- A view survives errors of scripts, commands and keys, and its history and script remain correct.
 local test, clench = require "test", require "clench"
 local views = dofile "tests/lua/view_session.lua"
-local open, item, texts_of = views.open, views.item, views.texts_of
-
-local function settle(view)
-  repeat view:frame() until not view.ui:poll()
-end
-
-local function move(view, x, y)
-  view.ui:input {kind = "move", x = x, y = y}
-  settle(view)
-end
-
-local function button(view, down, code)
-  view.ui:input {kind = "button", code = code or 0, down = down}
-  settle(view)
-end
+local open, item, texts_of, move, button = views.open, views.item, views.texts_of, views.move, views.button
 
 -- the session's script gives its world
 local function check_script(t, session)
@@ -149,12 +135,12 @@ test("Escape during a drag reverts it, but not a playback that has begun meanwhi
   view:close()
 end)
 
--- presses the mouse on a slider of the inspector
-local function press_slider(view, pattern)
-  local slider = item(view, pattern)
-  move(view, slider.x + slider.width / 4, slider.y + 8)
+-- presses the mouse on a widget
+local function press_on(view, pattern)
+  local widget = item(view, pattern)
+  move(view, widget.x + widget.width / 4, widget.y + 8)
   button(view, true)
-  return slider
+  return widget
 end
 
 test("a slider during a playback ends it, and both are steps of the history and lines of the script", function(t)
@@ -163,7 +149,7 @@ test("a slider during a playback ends it, and both are steps of the history and 
     view:select(pattern == "^dof2" and "barrett" or "mug")
     session:run "dynamics.play"
     for _ = 1, 3 do clench.loop.run(0.02) end
-    press_slider(view, pattern)
+    press_on(view, pattern)
     t.equal(session.playing, nil)
     button(view, false)
     t.equal(session.gesture, nil)
@@ -177,7 +163,7 @@ end)
 test("bodies that are moved while the transparency is dragged are in the script, too", function(t)
   local session, view = open("barrett_mug", {1100, 1900})
   view:select "mug"
-  press_slider(view, "^transp")
+  press_on(view, "^transp")
   session.hand.dofs = {0, 0.3, 0.3, 0.3}
   button(view, false)
   t.ok(session.object.transparency > 0)
@@ -190,7 +176,7 @@ end)
 test("the gesture of a slider that vanishes while it is dragged ends with the release", function(t)
   local session, view = open("barrett_mug", {1100, 1900})
   view:select "barrett"
-  press_slider(view, "^dof2")
+  press_on(view, "^dof2")
   t.ok(session.gesture)
   session:run("world.select", {addresses = {"mug"}})
   button(view, false)
@@ -202,10 +188,8 @@ end)
 test("a body that a script removes during a drag returns at the release, with the reason", function(t)
   local session, view = open("barrett_mug", {1100, 1900})
   view:select "mug"
-  local slider = item(view, "^x %[m%]")
-  move(view, slider.x + 20, slider.y + 8)
-  button(view, true)
-  move(view, slider.x + 30, slider.y + 8)
+  local field = press_on(view, "^x %[m%]")
+  move(view, field.x + field.width / 2, field.y + 8)
   t.ok(session.gesture)
   session.world:remove(session.object)
   button(view, false)
@@ -218,7 +202,7 @@ end)
 test("a slider that is hidden by F9 ends its gesture at the release", function(t)
   local session, view = open("barrett_mug", {1100, 1900})
   view:select "barrett"
-  press_slider(view, "^dof2")
+  press_on(view, "^dof2")
   view:key "f9"
   button(view, false)
   t.equal(session.gesture, nil)
@@ -252,7 +236,7 @@ test("a message stays until the next action, which may have the same one", funct
   view:close()
 end)
 
-test("the file of a note is named in the status bar", function(t)
+test("the status bar names the file of a note", function(t)
   local _, view = open()
   local file = test.path ".wrl"
   clench.files.save_text(file, "#VRML V2.0 utf8\nShape { geometry Box { size 1 1 1 } }\nSound {}\n")

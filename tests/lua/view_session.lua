@@ -40,4 +40,32 @@ function view_session.beside(view, text)
   error("nothing is beside " .. text)
 end
 
+--- Draws frames until all input is applied.
+function view_session.settle(view)
+  repeat view:frame() until not view.ui:poll()
+end
+
+--- Moves the mouse, without clicking.
+function view_session.move(view, x, y)
+  view.ui:input {kind = "move", x = x, y = y}
+  view_session.settle(view)
+end
+
+--- Presses or releases a button of the mouse.
+---@param code? integer  1: the right one
+function view_session.button(view, down, code)
+  view.ui:input {kind = "button", code = code or 0, down = down}
+  view_session.settle(view)
+end
+
+--- Clicks several times without a pause, as in a double click, where view:click_label does.
+---@param widget table  one of view:items()
+function view_session.clicks(view, widget, count)
+  view.ui:input {kind = "move", x = widget.x + math.min(widget.width, 24) / 2, y = widget.y + widget.height / 2}
+  for _ = 1, count do
+    for _, down in ipairs {true, false} do view.ui:input {kind = "button", code = 0, down = down} end
+  end
+  view_session.settle(view)
+end
+
 return view_session

@@ -41,6 +41,15 @@ std::filesystem::path read_confine(lua_State* L, Table& options) {
                                 : std::filesystem::path(folder);
 }
 
+ReadOptions read_places(lua_State* L, int i) {
+  Table options(L, i);
+  ReadOptions reading;
+  reading.confine = read_confine(L, options);
+  reading.home = home_folder();
+  options.done();
+  return reading;
+}
+
 ReadOptions read_options(lua_State* L, Table& options) {
   ReadOptions out;
   const std::string root = options.string("root", "");

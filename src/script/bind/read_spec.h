@@ -10,6 +10,9 @@ std::filesystem::path check_folder(const std::string& name, const std::string& s
 /// The folder that limits the files read by a call: its option confine, or else that of its state;
 /// empty: no limit.
 std::filesystem::path read_confine(lua_State* L, Table& options);
+/// Options of argument i of a call that looks at a path only: confine, and the folder of the
+/// installed models. Rejects any other key.
+ReadOptions read_places(lua_State* L, int i);
 /// Reading options in a call's table: root; confine; unit, by its name, or mesh_scale. Warnings and
 /// notes go to the script's log.
 ReadOptions read_options(lua_State* L, Table& options);

@@ -5,7 +5,8 @@ local placing = require "clench.session.placing"
 local raise = require "clench.raise"
 local script = require "clench.session.script"
 
-local world_path = {name = "path", type = "string", files = {kinds = {"world"}, catalog = {"worlds"}}, text = "a file"}
+-- scenes of MuJoCo are of the kind robot; of a robot or a body, a world is made
+local world_path = {name = "path", type = "string", files = {kinds = {"world", "robot", "body"}, catalog = {"worlds"}}, text = "a file"}
 local options = {name = "options", type = "table", optional = true, text = "options of the function that reads it"}
 
 local function pose_of(value) return clench.type(value) == "pose" and value or clench.pose(value) end
@@ -99,7 +100,7 @@ return {
      return save(session, args.path or session.path or raise "session: world.save: path: expected a file, as the world has no file yet")
    end},
   {name = "world.save_as", label = "Save As…", menu = "File", section = 2, shortcut = "ctrl+shift+s", enabled = conditions.world, reads = true,
-   parameters = {{name = "path", type = "string", files = {kinds = {"world"}, writes = true, ending = ".wld"}, text = "a file; .wld is appended to a name without an extension"}},
+   parameters = {{name = "path", type = "string", files = {endings = {".wld", ".xml", ".mjcf", ".lua"}, writes = true, ending = ".wld"}, text = "a file; .wld is appended to a name without an extension"}},
    run = function(session, args) return save(session, args.path) end},
   {name = "world.save_image", label = "Save Image…", menu = "File", section = 5, enabled = conditions.world, reads = true, long = true,
    parameters = {{name = "path", type = "string", files = {endings = {".png"}, writes = true, ending = ".png"}, text = "a file; .png is appended to a name without an extension"},

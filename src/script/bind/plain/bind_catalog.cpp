@@ -98,12 +98,7 @@ static int catalog(lua_State* L) {
 
 static int kind_of_file(lua_State* L) {
   const std::string path = check_string(L, 1, "path");
-  Table options(L, 2);
-  ReadOptions reading;
-  reading.confine = read_confine(L, options);
-  reading.home = home_folder();
-  options.done();
-  return push(L, kind_name(file_kind(find_file(path, {}, reading))));
+  return push(L, kind_name(file_kind(find_file(path, {}, read_places(L, 2)))));
 }
 
 static const Entry catalog_functions[] = {

@@ -20,7 +20,6 @@
 #include "clench/script/lua/check.h"
 #include "clench/script/lua/entry.h"
 #include "clench/script/lua/guard.h"
-#include "clench/script/lua/home.h"
 #include "clench/script/lua/lua_budget.h"
 #include "clench/script/lua/object.h"
 #include "clench/script/lua/push.h"
@@ -77,23 +76,14 @@ static fs::path find_folder(const std::string& name, const ReadOptions& reading)
 
 static int list(lua_State* L) {
   const std::string name = check_string(L, 1, "folder");
-  Table options(L, 2);
-  ReadOptions reading;
-  reading.confine = read_confine(L, options);
-  reading.home = home_folder();
-  options.done();
-  const FolderContents contents = list_folder(find_folder(name, reading));
+  const FolderContents contents = list_folder(find_folder(name, read_places(L, 2)));
   return push_record(L, {{"folders", contents.folders}, {"files", contents.files}});
 }
 
 static int exists(lua_State* L) {
   const std::string name = check_string(L, 1, "path");
-  const fs::path confine = get_setting(L, Setting::confine);
-  if (!lies_within(name, confine)) {
-    ReadOptions reading;
-    reading.confine = confine;
-    fail_outside(name, reading);
-  }
+  const ReadOptions reading = read_places(L, 2);
+  if (!lies_within(name, reading.confine)) fail_outside(name, reading);
   std::error_code ignored;
   return push(L, fs::exists(name, ignored));
 }
@@ -387,8 +377,10 @@ Names in a folder, sorted; hidden ones too. `files` are all that are not folders
 > clench.files.list "README.md"  --> error: README.md: expected a folder, got a file
 > clench.files.list "no/such"  --> error: no such folder: no/such)"},
     {"exists", guarded<exists>, R"(
-Is there a file, folder or device of that path? A link without a target counts as none. Only the current folder is searched.
+Is there a file, folder or device at that path? False for a link without a target. Relative paths start at the current folder only.
 @param path string  of a file or folder
+@param options? table  how the path is read
+@like clench.load  confine
 @return boolean
 @effect files
 > clench.files.exists "README.md", clench.files.exists "no/such"  --> true, false)"},

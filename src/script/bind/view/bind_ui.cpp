@@ -129,7 +129,7 @@ int ui_input(lua_State* L) {
          event.y);
   event.code = options.integer("code", 0);
   event.down = options.boolean("down", false);
-  event.time = options.number("time", -1);
+  if (options.has("time")) event.time = options.number("time");
   event.text = options.string("text", "");
   options.done();
   gui.add(std::move(event));
