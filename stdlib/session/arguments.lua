@@ -17,7 +17,9 @@ local function is_ending(value) return type(value) == "string" and value:find "^
 local types = {number = true, integer = true, string = true, boolean = true, table = true, pose = true, vec3 = true, body = true, robot = true, any = true}
 local command_fields = {name = true, label = true, shortcut = true, menu = true, section = true, enabled = true, run = true, parameters = true, reads = true, script = true, replace = true, long = true}
 local known_fields = {name = true, type = true, unit = true, min = true, max = true, default = true, optional = true, text = true, choices = true, suggested = true, hint = true, in_dialog = true, files = true}
-local is_field_of_files = {kinds = is_list_of_texts, endings = is_list_of_texts, catalog = is_list_of_texts, ending = is_ending, first = function(value) return type(value) == "function" end, writes = function(value) return type(value) == "boolean" end}
+local texts = {"a list of strings", is_list_of_texts}
+local fields_of_files = {kinds = texts, endings = texts, catalog = texts, ending = {"an ending such as '.wld'", is_ending},
+                         writes = {"a boolean", function(value) return type(value) == "boolean" end}, first = {"a function", function(value) return type(value) == "function" end}}
 
 -- "ctrl+shift+s": modifiers in this order and a key, in lower case
 local function check_shortcut(command)
@@ -42,15 +44,14 @@ end
 local function check_files(name, parameter)
   local files = parameter.files
   if files == nil then return end
-  if parameter.type ~= "string" then raise(("session:command: %s: parameter %s: files: expected a parameter of type string, got %s"):format(name, parameter.name, described(parameter.type))) end
-  if type(files) ~= "table" then raise(("session:command: %s: parameter %s: files: expected a table, got %s"):format(name, parameter.name, described(files))) end
+  local subject = ("session:command: %s: parameter %s: files"):format(name, parameter.name)
+  if parameter.type ~= "string" then raise(("%s: expected a parameter of type string, got %s"):format(subject, described(parameter.type))) end
+  if type(files) ~= "table" then raise(("%s: expected a table, got %s"):format(subject, described(files))) end
   for field, value in pairs(files) do
-    local fits = is_field_of_files[field]
-    if not fits then raise(("session:command: %s: parameter %s: files: unknown key '%s'"):format(name, parameter.name, tostring(field))) end
-    if not fits(value) then
-      raise(("session:command: %s: parameter %s: files: %s: expected %s, got %s"):format(name, parameter.name, field,
-                                                                                   field == "writes" and "a boolean" or field == "first" and "a function" or field == "ending" and "an ending such as '.wld'" or "a list of strings", described(value)))
-    end
+    local known = fields_of_files[field]
+    if not known then raise(("%s: unknown key '%s'"):format(subject, tostring(field))) end
+    local expected, fits = table.unpack(known)
+    if not fits(value) then raise(("%s: %s: expected %s, got %s"):format(subject, field, expected, described(value))) end
   end
 end
 
@@ -130,7 +131,7 @@ end
 --- A value of a parameter; the path of a file to write with the ending that the command appends.
 function arguments.with_ending(parameter, value)
   local ending = parameter.files and parameter.files.ending
-  return ending and type(value) == "string" and value ~= "" and with_ending(value, ending) or value
+  return ending and type(value) == "string" and with_ending(value, ending) or value
 end
 
 --- Reads the arguments of a command.

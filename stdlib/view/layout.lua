@@ -43,7 +43,7 @@ function layout.add(panel)
   user_panels[#user_panels + 1] = panel
 end
 
--- a function that draws, guarded
+-- a function that draws its part guarded
 local function guarding(draw)
   return function(ui) guarded(ui, draw) end
 end
