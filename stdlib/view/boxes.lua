@@ -66,8 +66,8 @@ function boxes.draw(view, ui)
   if not depth then return end
   while depth > 0 and boxes.count(view, depth) > max_boxes do depth = depth - 1 end
   for _, body in ipairs(bodies_of(view)) do
-    local pose = replay.shown(view, body).pose
-    for _, corners in ipairs(boxes_of(body.mesh, depth)) do draw_box(view, ui, pose, corners) end
+    local there = replay.shown(view, body)
+    for _, corners in ipairs(there and boxes_of(body.mesh, depth) or {}) do draw_box(view, ui, there.pose, corners) end
   end
 end
 

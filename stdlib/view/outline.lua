@@ -81,9 +81,9 @@ function outline.hull(points)
 end
 
 local function draw_body(view, ui, body, color)
-  local mesh = body.visual_mesh or body.mesh
-  if not mesh then return end
-  local pose, pixels = replay.shown(view, body).pose, {}
+  local mesh, there = body.visual_mesh or body.mesh, replay.shown(view, body)
+  if not (mesh and there) then return end
+  local pose, pixels = there.pose, {}
   for _, point in ipairs(points_of(mesh)) do
     local x, y = camera.project(view.camera, ui.size, pose * point)
     if not x then return end

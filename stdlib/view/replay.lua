@@ -14,11 +14,11 @@ end
 --- The world that the picture shows: a recorded state, or the session's world.
 function replay.world(view) return view.replay and view.replay.world or view.session.world end
 
---- The counterpart of a body or robot of the session's world in the world that the picture shows.
+--- The counterpart of a body or robot of the session's world in the world that the picture shows; nil if it was added after the recorded run.
 function replay.shown(view, thing)
   if not view.replay then return thing end
   local ok, there = pcall(thing.in_world, thing, view.replay.world)
-  return ok and there or thing
+  return ok and there or nil
 end
 
 --- The hit of a ray in the shown world, with the body of the session's world; nil if that body has been removed since.

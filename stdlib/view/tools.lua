@@ -186,7 +186,10 @@ end
 
 local function draw_axes(view, ui)
   if not view.shows_axes then return end
-  for _, thing in ipairs(view.session.selection) do frames.draw(view, ui, replay.shown(view, thing).pose) end
+  for _, thing in ipairs(view.session.selection) do
+    local there = replay.shown(view, thing)
+    if there then frames.draw(view, ui, there.pose) end
+  end
 end
 
 --- Outlines the selection, and draws its axes, the manipulator and the highlighted contact.

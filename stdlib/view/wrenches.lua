@@ -8,7 +8,8 @@ function wrenches.of(view)
   if not view.shows_wrenches then return nil end
   local list = {}
   for _, thing in ipairs(view.session.selection) do
-    if clench.type(thing) == "body" then list[#list + 1] = net_wrench.of(replay.shown(view, thing)) end
+    local body = clench.type(thing) == "body" and replay.shown(view, thing)
+    if body then list[#list + 1] = net_wrench.of(body) end
   end
   return #list > 0 and list or nil
 end

@@ -7,8 +7,8 @@ local clench = require "clench"
 -- an error that would be shown in a panel is a fault
 local panel_fault
 package.loaded["clench.view.guarded"] = function(ui, draw, ...)
-  local ok, message = xpcall(draw, debug.traceback, ui, ...)
-  if not ok then panel_fault = panel_fault or tostring(message) end
+  local ok, message = xpcall(draw, function(problem) return debug.traceback(tostring(problem)) end, ui, ...)
+  if not ok then panel_fault = panel_fault or message end
 end
 
 local keys = require "clench.view.keys"

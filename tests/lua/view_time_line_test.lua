@@ -218,3 +218,28 @@ test("curves of quality, forces and motor efforts have a point per change, of an
   t.ok(#view.curves.effort <= 1, #view.curves.effort)
   view:close()
 end)
+
+test("what was added after the run is left out of recorded states, with its outline, axes, boxes and measures", function(t)
+  local session, view = open()
+  session:run("dynamics.run", {seconds = 0.1})
+  local cube = session:run("world.import_object", {path = "models/objects/cube.iv", pose = {xyz = {0.3, 0, 0}}})
+  t.ok(session.object == cube)
+  view:select "cube"
+  view.shows_axes, view.box_depth, view.shows_wrenches, view.front.right = true, 3, true, "Author"
+  view:frame()
+  view.picture_visible = true
+  view:click_label "Time Line"
+  view:click_label "|<"
+  t.ok(view.replay)
+  local texts = {}
+  view:frame()
+  for _, shown in ipairs(view:items()) do texts[#texts + 1] = shown.label end
+  texts = table.concat(texts, "\n")
+  t.ok(texts:find("The recorded state lacks the hand or the object.", 1, true))
+  t.equal(texts:find "another world", nil)
+  t.equal(view.status:find "another world", nil)
+  view:click_label "Present"
+  view:frame()
+  t.ok(view.quality)
+  view:close()
+end)

@@ -36,8 +36,10 @@ local function draw_frames(view, ui, state)
   state.frames = ui:checkbox("show frames", state.frames ~= false)
   if state.frames then
     stereo.over(view, ui, function()
-      frames.draw(view, ui, replay.shown(view, object).pose, object.name)
-      frames.draw(view, ui, replay.shown(view, hand).pose, hand.name)
+      for _, thing in ipairs {object, hand} do
+        local there = replay.shown(view, thing)
+        if there then frames.draw(view, ui, there.pose, thing.name) end
+      end
     end)
   end
   local pose = place_of(session).pose

@@ -13,6 +13,7 @@ local function refresh(view)
   local session = view.session
   if not (session.hand and session.object) then return nil end
   local hand, object = replay.shown(view, session.hand), replay.shown(view, session.object)
+  if not (hand and object) then return nil end
   local contacts = replay.world(view):contacts(hand, object)
   local quality = {contacts = contacts, measures = {}, errors = {}}
   if #contacts == 0 then return quality end
@@ -109,7 +110,7 @@ local function draw(ui, view)
     curves.sample(view)
   end
   local quality = view.quality
-  if not quality then return ui:text("A hand and an object are needed.", {color = gray, wrap = true}) end
+  if not quality then return ui:text(view.replay and "The recorded state lacks the hand or the object." or "A hand and an object are needed.", {color = gray, wrap = true}) end
   ui:text(("%s on %s"):format(session.hand.name, session.object.name))
   if quality.error then ui:text(quality.error, {wrap = true}) end
   draw_measures(view, ui, quality)
